@@ -1,0 +1,174 @@
+// The document: everything a person can open, edit and save, as a value in double precision.
+// Meshes and images are shared and immutable; nodes and lights are plain arrays, copied on write by the
+// editor. Lengths are metres, angles radians, +Y up, right-handed; lights and cameras look down local -Z.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kilolux {
+
+// ---------------------------------------------------------------------------------------------------------
+// Images and materials
+
+enum class ColorSpace { Srgb, Linear };
+
+// Row-major, top row first. `rgba8` holds 4 bytes a pixel, or `rgbaF32` 4 floats a pixel (HDR); never both.
+struct Image {
+    std::string name; // URI or name in the file, for messages
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> rgba8;
+    std::vector<float> rgbaF32;
+};
+
+enum class WrapMode : std::uint8_t { Repeat, ClampToEdge, MirroredRepeat };
+
+// A use of an image by a material: KHR_texture_transform included (uv' = offset + R(rotation) * scale * uv).
+struct TextureRef {
+    int image = -1; // into Scene::images; -1 means none
+    int texCoord = 0;
+    WrapMode wrapS = WrapMode::Repeat;
+    WrapMode wrapT = WrapMode::Repeat;
+    bool nearestFilter = false;
+    glm::dvec2 offset{0.0};
+    glm::dvec2 scale{1.0};
+    double rotationRad = 0.0;
+};
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+
+struct Material {
+    std::string name;
+    glm::dvec4 baseColorFactor{1.0};
+    TextureRef baseColor; // sRGB
+    double metallicFactor = 1.0;
+    double roughnessFactor = 1.0;
+    TextureRef metallicRoughness; // linear, G roughness, B metallic
+    TextureRef normal;            // linear, tangent space
+    double normalScale = 1.0;
+    glm::dvec3 emissiveNit{0.0}; // emissiveFactor x KHR_materials_emissive_strength; 1 means 1 cd/m2
+    TextureRef emissive;         // sRGB
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    double alphaCutoff = 0.5;
+    bool doubleSided = false;
+    double transmission = 0.0; // KHR_materials_transmission factor
+};
+
+// ---------------------------------------------------------------------------------------------------------
+// Geometry
+
+// A triangle list. Attributes are per vertex and either empty or as long as `positions`; normals and tangents
+// are unit length after import (generated where the file has none). Triangles wind counter-clockwise.
+struct Primitive {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec4> tangents; // xyz, w = handedness
+    std::vector<glm::vec2> uv0;
+    std::vector<glm::vec2> uv1;
+    std::vector<glm::vec4> colors; // linear RGBA
+    std::vector<std::uint32_t> indices;
+    int material = -1; // into Scene::materials; -1 is the default material
+    glm::vec3 boundsMin{0.0f};
+    glm::vec3 boundsMax{0.0f};
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+};
+
+// ---------------------------------------------------------------------------------------------------------
+// Lights
+
+enum class LightType : std::uint8_t { Directional, Sphere, Spot, Tube, Rect, Disk };
+
+// What the typed intensity value means. The typed pair is what is kept when size or cone changes.
+enum class LightUnit : std::uint8_t { Lumen, Candela, Lux, Nit, Ev100 };
+
+// A light definition, shared by any number of light nodes, as in KHR_lights_punctual.
+struct LightDef {
+    std::string name;
+    LightType type = LightType::Sphere;
+    double intensity = 1.0; // in `unit`
+    LightUnit unit = LightUnit::Candela;
+    glm::dvec3 color{1.0};       // linear Rec. 709 tint; luminance is not normalized (glTF's rule)
+    std::optional<double> temperatureK; // multiplies the tint when present
+    std::optional<double> rangeM;       // smooth window; absent means derived by the renderer
+    double radiusM = 0.0;           // sphere, spot and tube; 0 on sphere and spot is a point
+    double lengthM = 0.0;           // tube: distance between the centres of its two end caps, along local X
+    double widthM = 1.0;            // rectangle: local X; disk: diameter
+    double heightM = 1.0;           // rectangle: local Y
+    double innerConeRad = 0.0;      // spot, half angle
+    double outerConeRad = 0.78539816339744830962; // spot, half angle, at most pi/2
+    double angularDiameterRad = 0.0; // directional
+    double barnDoorAngleRad = 1.57079632679489661923; // rectangle: pi/2 is open
+    double barnDoorLengthM = 0.0;
+    double rayEndBiasM = 0.0; // shadow rays stop this far before the light (mission L7)
+    std::string pointer; // JSON pointer of the definition in the source file; empty when made by the tool
+};
+
+// A node that carries a light. One node never carries two.
+struct LightNode {
+    int node = -1; // into Scene::nodes: its world transform places the light
+    int def = -1;  // into Scene::lightDefs
+    bool muted = false;
+};
+
+// ---------------------------------------------------------------------------------------------------------
+// Cameras, nodes, scene
+
+struct Camera {
+    std::string name;
+    bool orthographic = false;
+    double yfovRad = 0.8;
+    std::optional<double> aspect; // absent: the picture's
+    double znearM = 0.01;
+    std::optional<double> zfarM; // absent: infinite
+    double xmagM = 1.0;          // orthographic half extents
+    double ymagM = 1.0;
+    glm::dmat4 worldFromCamera{1.0}; // rigid: scale removed
+};
+
+struct Node {
+    std::string name;
+    int parent = -1;
+    glm::dmat4 localFromNode{1.0}; // parent from this
+    glm::dmat4 worldFromNode{1.0}; // kept by updateWorldTransforms()
+    int mesh = -1;
+    bool visible = true; // reachable from the default scene
+};
+
+struct Scene {
+    std::filesystem::path sourcePath;
+    std::vector<std::shared_ptr<const Image>> images;
+    std::vector<Material> materials;
+    std::vector<std::shared_ptr<const Mesh>> meshes;
+    std::vector<Node> nodes; // in file order; parents may come later
+    std::vector<Camera> cameras;
+    std::vector<LightDef> lightDefs;
+    std::vector<LightNode> lights; // in node order: the index is the light's slot on load
+    double exposureEv100 = 0.0;    // from scene extras.kilolux.exposureEv100, else derived by the renderer
+    bool hasExposure = false;
+    std::vector<std::string> warnings; // what the import could not honour, one line each
+};
+
+// Recomputes every node's worldFromNode from the local transforms.
+void updateWorldTransforms(Scene& scene);
+
+// Bounds of all visible geometry in metres; {0,0,0} twice for a scene without triangles.
+struct Bounds {
+    glm::dvec3 min{0.0};
+    glm::dvec3 max{0.0};
+};
+Bounds worldBounds(const Scene& scene);
+
+std::size_t triangleCount(const Scene& scene); // instances counted each
+
+} // namespace kilolux

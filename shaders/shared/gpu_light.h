@@ -1,0 +1,49 @@
+// The light records that cross from the document to the shaders. All values are photometric and never
+// pre-exposed. The hot record is what candidate weights and culling need, in exactly 64 bytes; the cold one
+// holds the rest. Shaders read them only through loadLightHot(slot) and loadLightCold(slot).
+#ifndef KILOLUX_SHARED_GPU_LIGHT_H
+#define KILOLUX_SHARED_GPU_LIGHT_H
+#include "base.h"
+
+KX_SHARED_BEGIN
+
+// LightHot::typeFlags: low 4 bits are the type, the rest are flags.
+KX_CONST uint LIGHT_DIRECTIONAL = 0u;
+KX_CONST uint LIGHT_SPHERE = 1u; // a point when sizeM.x is 0
+KX_CONST uint LIGHT_SPOT = 2u;   // a sphere source shaped by a cone about dirWs
+KX_CONST uint LIGHT_TUBE = 3u;   // a capsule along the tangent
+KX_CONST uint LIGHT_RECT = 4u;   // one-sided, tangent is the width axis
+KX_CONST uint LIGHT_DISK = 5u;   // one-sided
+KX_CONST uint LIGHT_TYPE_COUNT = 6u;
+KX_CONST uint LIGHT_TYPE_MASK = 15u;
+KX_CONST uint LIGHT_FLAG_DEAD = 16u;  // freed or never used slot: weight 0
+KX_CONST uint LIGHT_FLAG_MUTED = 32u; // weight 0, slot kept
+
+struct LightHot {
+    vec3 positionWs;   // centre, metres, relative to the frame's anchor; directional: unused, 0
+    float invRange;    // 1 / range in 1/m; 0 means no window
+    vec3 dirWs;        // unit, the way the light looks (its local -Z)
+    uint tangentOct;   // unit local +X, octahedral 2 x snorm16; re-orthogonalized against dirWs
+    vec3 intensity;    // local lights: candela along dirWs (sphere, spot: on the axis of the cone; tube: square to its
+                       // axis); directional: lux at a surface that faces it; linear Rec. 709
+    uint typeFlags;    // LIGHT_* above
+    vec2 sizeM;        // sphere, spot: radius, 0; tube: radius, half length; rect: half width, half height;
+                       // disk: radius, 0; directional: tangent of the angular radius, 0
+    vec2 shaping;      // spot: cone scale and offset, so that factor = saturate(cos * scale + offset)^2;
+                       // rect: barn door angle (rad) and length (m)
+};
+
+struct LightCold {
+    float rayEndBiasM; // shadow rays stop this far before the sampled point
+    uint epoch;        // increases when the slot gets a new light
+    uint node;         // document light index, for views and probes
+    float fluxLm;      // total emitted, luminance-weighted; directional: 0
+};
+
+KX_SHARED_END
+
+#ifdef __cplusplus
+static_assert(sizeof(kilolux::shared::LightHot) == 64);
+static_assert(sizeof(kilolux::shared::LightCold) == 16);
+#endif
+#endif
