@@ -1,0 +1,127 @@
+// Lists for people and programs, and one way to refuse an unknown name.
+#include "app/choices.h"
+
+#include "renderer/nearest_name.h"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace kilolux {
+namespace {
+
+constexpr int kMaxSidePx = 16384;
+constexpr std::int64_t kMaxPixels = 7680ll * 4320; // 8K UHD
+
+std::string choicesText(std::string_view title, std::span<const NamedChoice> choices) {
+    std::string text = fmt::format("{}\n", title);
+    for (const NamedChoice& choice : choices)
+        text += fmt::format("  {:<20} {}{}\n", choice.name, choice.help,
+                            choice.name == choices.front().name ? " (default)" : "");
+    return text + "\n";
+}
+
+std::string settingsText() {
+    const Settings defaults;
+    std::string text = "Settings (--set key=value)\n";
+    for (const SettingRow& row : settingRows()) {
+        text += fmt::format("  {:<20} {}\n", row.name, row.help);
+        text += fmt::format("  {:<20} {}{}{}, default {}\n", "", settingTypeText(row),
+                            row.unit.empty() ? "" : " ", row.unit, settingValueText(row, defaults));
+        const ChoiceMember* choice = std::get_if<ChoiceMember>(&row.member);
+        if (!choice) continue;
+        for (const SettingWord& word : choice->words)
+            text += fmt::format("  {:<20}   {:<16} {}\n", "", word.word, word.help);
+    }
+    return text;
+}
+
+nlohmann::ordered_json choicesJson(std::span<const NamedChoice> choices) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const NamedChoice& choice : choices)
+        list.push_back(
+            {{"name", choice.name}, {"help", choice.help}, {"default", choice.name == choices.front().name}});
+    return list;
+}
+
+std::string_view settingTypeName(const SettingRow& row) {
+    if (std::holds_alternative<bool Settings::*>(row.member)) return "bool";
+    if (std::holds_alternative<int Settings::*>(row.member)) return "int";
+    if (std::holds_alternative<double Settings::*>(row.member)) return "float";
+    if (std::holds_alternative<AutoNumber Settings::*>(row.member)) return "float or auto";
+    return "enum";
+}
+
+nlohmann::ordered_json settingRowsJson() {
+    const nlohmann::json defaults = settingsJson(Settings{});
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const SettingRow& row : settingRows()) {
+        nlohmann::ordered_json entry = {{"name", row.name},
+                                        {"type", settingTypeName(row)},
+                                        {"default", defaults[std::string(row.name)]},
+                                        {"help", row.help}};
+        if (!row.unit.empty()) entry["unit"] = row.unit;
+        if (std::isfinite(row.min)) entry["min"] = row.min;
+        if (std::isfinite(row.max)) entry["max"] = row.max;
+        if (const ChoiceMember* choice = std::get_if<ChoiceMember>(&row.member))
+            for (const SettingWord& word : choice->words)
+                entry["words"].push_back({{"word", word.word}, {"help", word.help}});
+        list.push_back(std::move(entry));
+    }
+    return list;
+}
+
+} // namespace
+
+std::string listChoices(ListFormat format) {
+    if (format == ListFormat::Text)
+        return choicesText("Methods (--method)", Renderer::methods()) +
+               choicesText("Views (--view)", Renderer::views()) + settingsText();
+    nlohmann::ordered_json json;
+    json["methods"] = choicesJson(Renderer::methods());
+    json["views"] = choicesJson(Renderer::views());
+    json["settings"] = settingRowsJson();
+    return json.dump(2) + "\n";
+}
+
+std::optional<Error> checkChoice(std::string_view kind, std::string_view name,
+                                 std::span<const NamedChoice> choices) {
+    std::vector<std::string_view> names;
+    for (const NamedChoice& choice : choices) {
+        if (name.empty() || choice.name == name) return std::nullopt;
+        names.push_back(choice.name);
+    }
+    return Error{fmt::format("unknown {} '{}'; {}", kind, name, nearestNameHint(name, names))};
+}
+
+std::optional<Error> checkCamera(std::string_view name, const Scene& scene) {
+    if (name.empty()) return std::nullopt;
+    if (scene.cameras.empty())
+        return Error{fmt::format(
+            "unknown camera '{}'; the scene has none, leave --camera out for one that shows all", name)};
+    std::vector<std::string_view> names;
+    for (const Camera& camera : scene.cameras) {
+        if (camera.name == name) return std::nullopt;
+        names.push_back(camera.name);
+    }
+    return Error{fmt::format("unknown camera '{}'; {}", name, nearestNameHint(name, names))};
+}
+
+Result<PictureSize> parsePictureSize(std::string_view text) {
+    PictureSize size;
+    const char* const end = text.data() + text.size();
+    const auto width = std::from_chars(text.data(), end, size.width);
+    const bool separated =
+        width.ec == std::errc() && width.ptr != end && (*width.ptr == 'x' || *width.ptr == 'X');
+    const auto height = separated ? std::from_chars(width.ptr + 1, end, size.height) : width;
+    if (!separated || height.ec != std::errc() || height.ptr != end)
+        return Error{fmt::format("--size '{}': expected WIDTHxHEIGHT in pixels, such as 960x540", text)};
+    const auto inRange = [](int side) { return side >= 1 && side <= kMaxSidePx; };
+    if (!inRange(size.width) || !inRange(size.height) || std::int64_t(size.width) * size.height > kMaxPixels)
+        return Error{
+            fmt::format("--size '{}': each side must be 1 to {} pixels, and the picture at most {} pixels",
+                        text, kMaxSidePx, kMaxPixels)};
+    return size;
+}
+
+} // namespace kilolux

@@ -1,0 +1,203 @@
+// kilolux render: checks every argument before any long work, then imports, renders and writes.
+#include "app/choices.h"
+#include "app/commands.h"
+
+#include "renderer/document/gltf_import.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace kilolux {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::string scene;
+    std::string output;
+    std::string size = "960x540";
+    std::string statistics;
+    std::string dumpFolder;
+    std::vector<std::string> sets;
+    RenderOptions options;
+    bool half = false;
+    bool list = false;
+    bool json = false;
+    bool verbose = false;
+};
+
+// An error on the way out, with the code that belongs to it.
+struct Failure {
+    ExitCode code;
+    std::string message;
+};
+using Problem = std::optional<Failure>;
+
+Problem as(ExitCode code, const std::optional<Error>& error) {
+    return error ? Problem{{code, error->message}} : std::nullopt;
+}
+
+// Fills options and the default output name from the text of the arguments, and refuses what cannot work.
+Problem checkArguments(Arguments& arguments) {
+    if (arguments.scene.empty())
+        return Failure{ExitCode::BadInput, "SCENE is missing; try: kilolux render SCENE.glb -o OUT.png"};
+    const Result<PictureSize> size = parsePictureSize(arguments.size);
+    if (!size) return Failure{ExitCode::BadInput, size.error()};
+    RenderOptions& options = arguments.options;
+    options.width = size.value().width;
+    options.height = size.value().height;
+    if (Problem p = as(ExitCode::BadInput, checkChoice("method", options.method, Renderer::methods())))
+        return p;
+    if (Problem p = as(ExitCode::BadInput, checkChoice("view", options.view, Renderer::views()))) return p;
+    for (const std::string& set : arguments.sets)
+        if (Problem p = as(ExitCode::BadInput, applySetting(options.settings, set))) return p;
+    if (arguments.output.empty()) {
+        const std::string stem = fs::path(arguments.scene).stem().string();
+        arguments.output = stem + (options.view.empty() ? "" : "-" + options.view) + ".png";
+    }
+    const Result<PictureFormat> format = pictureFormat(arguments.output);
+    if (!format) return Failure{ExitCode::BadInput, format.error()};
+    if (arguments.half && format.value() != PictureFormat::Exr)
+        return Failure{ExitCode::BadInput, "--half is for .exr only"};
+    options.keepTargets = !arguments.dumpFolder.empty();
+    return std::nullopt;
+}
+
+// Asked before the work, so that an hour of rendering does not end at a full or closed disk.
+Problem checkDisk(const Arguments& arguments) {
+    if (Problem p = as(ExitCode::CouldNotWork, checkWritable(arguments.output))) return p;
+    if (!arguments.statistics.empty())
+        if (Problem p = as(ExitCode::CouldNotWork, checkWritable(arguments.statistics))) return p;
+    if (arguments.dumpFolder.empty()) return std::nullopt;
+    std::error_code failure;
+    fs::create_directories(arguments.dumpFolder, failure);
+    if (failure)
+        return Failure{ExitCode::CouldNotWork, fmt::format("cannot create the folder '{}': {}",
+                                                           arguments.dumpFolder, failure.message())};
+    return as(ExitCode::CouldNotWork, checkWritable(fs::path(arguments.dumpFolder) / "target.exr"));
+}
+
+std::optional<Error> writePicture(const Arguments& arguments, const Picture& picture) {
+    const PictureFormat format = pictureFormat(arguments.output).value();
+    if (format == PictureFormat::Png)
+        return writePng(arguments.output, picture.width, picture.height, picture.srgb8);
+    const FloatImage linear{picture.width, picture.height, 3, picture.rgb};
+    if (format == PictureFormat::Hdr) return writeHdr(arguments.output, linear);
+    return writeExr(arguments.output, linear, arguments.half ? ExrDepth::Half : ExrDepth::Float);
+}
+
+std::optional<Error> writeTargets(Renderer& renderer, const fs::path& folder) {
+    const Result<std::vector<NamedImage>> targets = renderer.targets();
+    if (!targets) return Error{targets.error()};
+    for (const NamedImage& target : targets.value())
+        if (auto error = writeExr(folder / (target.name + ".exr"), target.image, ExrDepth::Float))
+            return error;
+    fmt::print("wrote {} targets to '{}'\n", targets.value().size(), folder.string());
+    return std::nullopt;
+}
+
+void printVerbose(const FrameStatistics& s) {
+    fmt::print(stderr, "device      {} ({}), timing by {}\n", s.device, s.driver, s.timing);
+    fmt::print(stderr, "scene       {} lights ({:.1f} in range of a pixel), {} triangles\n", s.lights,
+               s.lightsInRangeMean, s.triangles);
+    fmt::print(stderr, "frame       {:.2f} ms, direct lighting {:.2f} ms, {} rays in all\n", s.frameMs,
+               s.directLightingMs, s.rays);
+    for (const PassTiming& pass : s.passes)
+        fmt::print(stderr, "  {:<24} {:>9.3f} ms median {:>9.3f} ms p95\n", pass.name, pass.medianMs,
+                   pass.p95Ms);
+    fmt::print(stderr, "GPU memory  {:.1f} MiB\n", s.gpuMemoryPeakMiB);
+    for (const MemoryCause& cause : s.gpuMemory)
+        fmt::print(stderr, "  {:<24} {:>9.1f} MiB\n", cause.cause, cause.peakMiB);
+}
+
+Problem renderToFiles(const Arguments& arguments, const Scene& scene) {
+    const auto start = std::chrono::steady_clock::now();
+    const RenderOptions& options = arguments.options;
+    Result<std::unique_ptr<Renderer>> renderer = Renderer::create(scene, options);
+    if (!renderer) return Failure{ExitCode::CouldNotWork, renderer.error()};
+    const Result<Picture> picture = renderer.value()->render([&](int done, int all) {
+        if (arguments.verbose) fmt::print(stderr, "frame {} of {}\n", done, all);
+        return true;
+    });
+    if (!picture) return Failure{ExitCode::CouldNotWork, picture.error()};
+
+    if (Problem p = as(ExitCode::CouldNotWork, writePicture(arguments, picture.value()))) return p;
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    fmt::print("wrote '{}' ({} x {}, {} {}, {:.1f} s)\n", arguments.output, options.width, options.height,
+               options.frames, options.frames == 1 ? "frame" : "frames", seconds.count());
+
+    const FrameStatistics statistics = renderer.value()->statistics();
+    if (arguments.verbose) printVerbose(statistics);
+    if (!arguments.statistics.empty()) {
+        const std::string text = statisticsJson(statistics, options.settings).dump(2) + "\n";
+        if (Problem p = as(ExitCode::CouldNotWork, writeText(arguments.statistics, text))) return p;
+        fmt::print("wrote '{}'\n", arguments.statistics);
+    }
+    if (arguments.dumpFolder.empty()) return std::nullopt;
+    return as(ExitCode::CouldNotWork, writeTargets(*renderer.value(), arguments.dumpFolder));
+}
+
+Problem renderCommand(Arguments& arguments) {
+    if (Problem p = checkArguments(arguments)) return p;
+    if (Problem p = checkDisk(arguments)) return p;
+    const Result<Scene> scene = importGltf(arguments.scene);
+    if (!scene) return Failure{ExitCode::BadInput, scene.error()};
+    for (const std::string& warning : scene.value().warnings)
+        printWarning(warning);
+    if (Problem p = as(ExitCode::BadInput, checkCamera(arguments.options.camera, scene.value()))) return p;
+    return renderToFiles(arguments, scene.value());
+}
+
+constexpr const char* kExamples = R"(Examples:
+  kilolux render gallery.glb -o gallery.png
+  kilolux render gallery.glb -o wide.exr --size 1280x720 --method reference-true --frames 64
+  kilolux render gallery.glb -o normals.png --view normal --camera close
+  kilolux render gallery.glb -o dark.png --set exposureEv100=9 --set toneMap=none --stats dark.json
+  kilolux render --list            names of methods, views and settings, with what they do
+
+PNG is what the display shows; EXR and HDR hold linear light without exposure.)";
+
+} // namespace
+
+Command addRenderCommand(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    Arguments& a = *arguments;
+    CLI::App* render = app.add_subcommand("render", "Render a scene to a picture file");
+    render->add_option("SCENE", a.scene, "a .gltf or .glb file");
+    render->add_option("-o,--output", a.output,
+                       "picture to write: .png, .exr or .hdr (default: SCENE's name .png)");
+    render->add_option("--size", a.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    render->add_option("--frames", a.options.frames, "frames to accumulate")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    render->add_option("--seed", a.options.seed, "of the random numbers; same seed, same bytes")
+        ->capture_default_str();
+    render->add_option("--method", a.options.method, "how direct light is found (see --list)");
+    render->add_option("--view", a.options.view, "what the picture shows (see --list)");
+    render->add_option("--camera", a.options.camera, "a camera of the scene by name");
+    render->add_option("--set", a.sets, "key=value of a setting, any number of times (see --list)")
+        ->allow_extra_args(false);
+    render->add_option("--stats", a.statistics, "write statistics to this JSON file");
+    render->add_option("--dump", a.dumpFolder,
+                       "write every target of the last frame as EXR into this folder");
+    render->add_flag("--half", a.half, "EXR in 16-bit floats");
+    render->add_flag("--list", a.list, "list methods, views and settings");
+    render->add_flag("--json", a.json, "with --list: as JSON")->needs("--list");
+    render->add_flag("-v,--verbose", a.verbose, "tell progress, times and memory on stderr");
+    render->footer(kExamples);
+    return [arguments] {
+        if (arguments->list) {
+            fmt::print("{}", listChoices(arguments->json ? ListFormat::Json : ListFormat::Text));
+            return ExitCode::Done;
+        }
+        const Problem problem = renderCommand(*arguments);
+        if (!problem) return ExitCode::Done;
+        printError(problem->message);
+        return problem->code;
+    };
+}
+
+} // namespace kilolux

@@ -1,0 +1,20 @@
+// The commands of the program. Each adds itself to the command line and hands back what to run when the user
+// chose it.
+#pragma once
+
+#include "app/messages.h"
+
+#include <CLI/App.hpp>
+#include <functional>
+
+namespace kilolux {
+
+using Command = std::function<ExitCode()>;
+
+// kilolux render SCENE -o OUT: a picture, statistics and targets to files.
+Command addRenderCommand(CLI::App& app);
+
+// kilolux edit [SCENE]: the window.
+Command addEditCommand(CLI::App& app);
+
+} // namespace kilolux

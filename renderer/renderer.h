@@ -1,0 +1,79 @@
+// The renderer as everybody else sees it: a scene and options in, pictures and statistics out. It knows no
+// window, opens no files but the shaders, and writes none.
+#pragma once
+
+#include "renderer/document/result.h"
+#include "renderer/document/scene.h"
+#include "renderer/output/picture_file.h"
+#include "renderer/settings.h"
+#include "renderer/statistics.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kilolux {
+
+// A view or method that the user can choose, with one line of help.
+struct NamedChoice {
+    std::string_view name;
+    std::string_view help;
+};
+
+struct RenderOptions {
+    int width = 960; // pixels
+    int height = 540;
+    int frames = 1;
+    std::uint32_t seed = 0;
+    std::string method; // empty: the first of Renderer::methods()
+    std::string view;   // empty: the first of Renderer::views()
+    std::string camera; // name of one of the scene's cameras; empty: the first one, or a derived one
+    Settings settings;
+    bool keepTargets = false; // keep what Renderer::targets() reads back
+};
+
+struct Picture {
+    int width = 0; // pixels
+    int height = 0;
+    std::vector<float> rgb;          // linear Rec. 709, scene-referred, not exposed; a view: its raw values
+    std::vector<std::uint8_t> srgb8; // as the display shows it, 3 bytes a pixel
+};
+
+// One target of the last frame, as floats.
+struct NamedImage {
+    std::string name; // GLSL name
+    FloatImage image;
+};
+
+// Called after every finished frame with (frames done, frames in all); false cancels the render.
+using RenderProgress = std::function<bool(int, int)>;
+
+class Renderer {
+  public:
+    // The first of each is the default.
+    static std::span<const NamedChoice> views();
+    static std::span<const NamedChoice> methods();
+
+    // `scene` must outlive the renderer. Errors: no usable device, too little memory, unknown names.
+    static Result<std::unique_ptr<Renderer>> create(const Scene& scene, const RenderOptions& options);
+    ~Renderer();
+
+    // Renders options.frames frames. Errors: lost device, out of memory, cancelled.
+    Result<Picture> render(const RenderProgress& progress);
+
+    FrameStatistics statistics() const; // of the last render()
+
+    // Every target of the last frame; empty unless options.keepTargets.
+    Result<std::vector<NamedImage>> targets();
+
+  private:
+    struct Impl;
+    explicit Renderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace kilolux

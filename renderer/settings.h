@@ -1,0 +1,97 @@
+// The settings of a frame: one struct that code reads as plain, typed members, and one table that drives the
+// command line, JSON, presets and the window. A new setting is a member with its default here and its row in
+// settings.cpp; a member without a row does not compile.
+#pragma once
+
+#include "renderer/document/result.h"
+
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace kilolux {
+
+enum class PixelFilter { Box, BlackmanHarris };
+enum class ToneMap { Neutral, None };
+enum class TracerChoice { Auto, Compute, RayQuery };
+enum class GBufferChoice { Auto, Raster, Compute };
+
+// A number that the program finds by itself unless the user gives one.
+struct AutoNumber {
+    bool automatic = true;
+    double value = 0.0; // read only when `automatic` is false
+
+    bool operator==(const AutoNumber&) const = default;
+    double valueOr(double found) const { return automatic ? found : value; }
+};
+
+struct Settings {
+    AutoNumber exposureEv100;
+    double raysPerPixel = 1.0;
+    bool jitter = true;
+    PixelFilter pixelFilter = PixelFilter::BlackmanHarris;
+    ToneMap toneMap = ToneMap::Neutral;
+    TracerChoice tracer = TracerChoice::Auto;
+    GBufferChoice gbuffer = GBufferChoice::Auto;
+
+    bool operator==(const Settings&) const = default;
+};
+
+// ---------------------------------------------------------------------------------------------------------
+// The table
+
+// One word that a choice accepts, with what it means.
+struct SettingWord {
+    int value; // of the enum
+    std::string_view word;
+    std::string_view help;
+};
+
+// A choice of words. The two functions reach the typed enum member that the row was made for.
+struct ChoiceMember {
+    std::span<const SettingWord> words;
+    int (*get)(const Settings&);
+    void (*set)(Settings&, int);
+};
+
+struct SettingRow {
+    std::string_view name;
+    std::variant<bool Settings::*, int Settings::*, double Settings::*, AutoNumber Settings::*, ChoiceMember>
+        member;
+    double min = -std::numeric_limits<double>::infinity(); // numbers only, inclusive, in `unit`
+    double max = std::numeric_limits<double>::infinity();
+    std::string_view unit; // empty: a plain number
+    std::string_view help; // one line
+};
+
+// Every setting, in the order in which people should read them.
+std::span<const SettingRow> settingRows();
+
+// The row named `name`, or null.
+const SettingRow* findSetting(std::string_view name);
+
+// ---------------------------------------------------------------------------------------------------------
+// Text and JSON
+
+// Applies one "key=value". The message of the error names the key, the value, and what was expected: the
+// nearest known key, the range with its unit, or the words of the choice. On error `settings` is untouched.
+std::optional<Error> applySetting(Settings& settings, std::string_view keyValue);
+
+// Applies an object { name: value, ... }, all or nothing. Words and "auto" are strings.
+std::optional<Error> applySettings(Settings& settings, const nlohmann::json& object);
+
+std::string settingTypeText(const SettingRow& row); // "true|false", "0.25 to 16", "auto|compute|rayQuery"
+std::string settingValueText(const SettingRow& row, const Settings& settings); // as applySetting reads it
+
+// All settings with their values; keys sorted, so that equal settings give equal text.
+nlohmann::json settingsJson(const Settings& settings);
+
+// FNV-1a, 64 bits, of the text of settingsJson: the same on every machine and in every run.
+std::uint64_t settingsHash(const Settings& settings);
+
+} // namespace kilolux

@@ -1,0 +1,54 @@
+// What a rendered frame cost and what it was made of, and its JSON form (kilolux render --stats).
+#pragma once
+
+#include "renderer/settings.h"
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace kilolux {
+
+struct PassTiming {
+    std::string name;
+    double medianMs = 0.0; // over the rendered frames
+    double p95Ms = 0.0;
+};
+
+struct MemoryCause {
+    std::string cause; // "targets", "bvh", "textures", ...
+    double peakMiB = 0.0;
+};
+
+struct FrameStatistics {
+    std::string device;
+    std::string driver;
+    std::string timing; // "timestamps" where the GPU's clock is good, else "wall"
+    int width = 0;      // pixels
+    int height = 0;
+    int frames = 0;
+    std::uint32_t seed = 0;
+    std::size_t lights = 0;
+    double lightsInRangeMean = 0.0; // per pixel that shows a surface
+    std::size_t triangles = 0;      // instances counted each
+    std::vector<std::string> featuresOn;
+    std::vector<std::string> featuresOff; // "Name: why"
+    std::vector<PassTiming> passes;       // in frame order
+    double directLightingMs = 0.0;        // per frame: culling to denoising, or the method's own lighting
+    double frameMs = 0.0;                 // per frame, all passes
+    double wallMs = 0.0;                  // all frames, from the first submit to the picture
+    std::uint64_t rays = 0;               // all frames
+    std::vector<MemoryCause> gpuMemory;
+    double gpuMemoryPeakMiB = 0.0; // of everything at once; at most the sum of the causes
+    std::vector<std::pair<std::string, double>>
+        firstDispatchMs;    // pass and its first dispatch, compiler included
+    double startupMs = 0.0; // process start to the first picture
+};
+
+// The object that --stats writes: field names as above, `passes` by name, `gpuMemoryMiB` by cause and
+// "total", `features` { on, off }, `settings` and `settingsHash` (16 hexadecimal digits).
+nlohmann::ordered_json statisticsJson(const FrameStatistics& statistics, const Settings& settings);
+
+} // namespace kilolux
