@@ -19,19 +19,7 @@ KX_CONST uint LIGHT_TYPE_MASK = 15u;
 KX_CONST uint LIGHT_FLAG_DEAD = 16u;  // freed or never used slot: weight 0
 KX_CONST uint LIGHT_FLAG_MUTED = 32u; // weight 0, slot kept
 
-struct LightHot {
-    vec3 positionWs;   // centre, metres, relative to the frame's anchor; directional: unused, 0
-    float invRange;    // 1 / range in 1/m; 0 means no window
-    vec3 dirWs;        // unit, the way the light looks (its local -Z)
-    uint tangentOct;   // unit local +X, octahedral 2 x snorm16; re-orthogonalized against dirWs
-    vec3 intensity;    // local lights: candela along dirWs (sphere, spot: on the axis of the cone; tube: square to its
-                       // axis); directional: lux at a surface that faces it; linear Rec. 709
-    uint typeFlags;    // LIGHT_* above
-    vec2 sizeM;        // sphere, spot: radius, 0; tube: radius, half length; rect: half width, half height;
-                       // disk: radius, 0; directional: tangent of the angular radius, 0
-    vec2 shaping;      // spot: cone scale and offset, so that factor = saturate(cos * scale + offset)^2;
-                       // rect: barn door angle (rad) and length (m)
-};
+#include "light_hot.inl" // struct LightHot
 
 struct LightCold {
     float rayEndBiasM; // shadow rays stop this far before the sampled point

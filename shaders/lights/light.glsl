@@ -1,0 +1,177 @@
+// One set of functions for every light type; each evaluation has a single call site, the type only chooses what
+// goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and may define KX_HAS_DIRECTIONAL,
+// KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT and KX_HAS_DISK as constant expressions that are false
+// where the scene has no such light.
+#ifndef KILOLUX_LIGHTS_LIGHT_GLSL
+#define KILOLUX_LIGHTS_LIGHT_GLSL
+#include "directional.glsl"
+#include "disk.glsl"
+#include "irradiance.glsl"
+#include "rect.glsl"
+#include "shading_point.glsl"
+#include "sphere.glsl"
+#include "spot.glsl"
+#include "tube.glsl"
+#include "weight.glsl"
+
+#ifndef KX_HAS_DIRECTIONAL
+#define KX_HAS_DIRECTIONAL true
+#endif
+#ifndef KX_HAS_SPHERE
+#define KX_HAS_SPHERE true
+#endif
+#ifndef KX_HAS_SPOT
+#define KX_HAS_SPOT true
+#endif
+#ifndef KX_HAS_TUBE
+#define KX_HAS_TUBE true
+#endif
+#ifndef KX_HAS_RECT
+#define KX_HAS_RECT true
+#endif
+#ifndef KX_HAS_DISK
+#define KX_HAS_DISK true
+#endif
+
+// Whether the light has no extent: only lightSample can meet it.
+KX_INLINE bool lightIsDelta(LightHot light) {
+    uint type = lightType(light);
+    bool point = (type == LIGHT_SPHERE || type == LIGHT_SPOT) && sphereIsPoint(light);
+    return point || (type == LIGHT_DIRECTIONAL && directionalIsDelta(light));
+}
+
+// Where the light can reach. Dead and muted lights have radius 0.
+KX_INLINE LightBounds lightBounds(LightHot light) {
+    uint type = lightType(light);
+    LightBounds bounds = rangeBounds(light);
+    if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
+        bounds = directionalBounds(light);
+    else if (KX_HAS_SPOT && type == LIGHT_SPOT)
+        bounds = spotBounds(light);
+    else if (KX_HAS_RECT && type == LIGHT_RECT)
+        bounds = rectBounds(light);
+    else if (KX_HAS_DISK && type == LIGHT_DISK)
+        bounds = diskBounds(light);
+    else if (KX_HAS_TUBE && type == LIGHT_TUBE)
+        bounds = tubeBounds(light);
+    bounds.radiusM = lightIsOn(light) ? bounds.radiusM : 0.0;
+    return bounds;
+}
+
+// The light's shaped emission towards the receiver: radiance in nit, intensity in cd for points, illuminance in
+// lux for a delta direction. 0 behind one-sided lights, out of range and for dead and muted ones.
+KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
+    uint type = lightType(light);
+    vec3 emission = vec3(0.0);
+    if (!lightIsOn(light))
+        return emission;
+    if (KX_HAS_SPHERE && type == LIGHT_SPHERE)
+        emission = sphereEvaluate(light, receiverWs);
+    else if (KX_HAS_SPOT && type == LIGHT_SPOT)
+        emission = spotEvaluate(light, receiverWs);
+    else if (KX_HAS_TUBE && type == LIGHT_TUBE)
+        emission = tubeEvaluate(light, receiverWs);
+    else if (KX_HAS_RECT && type == LIGHT_RECT)
+        emission = rectEvaluate(light, receiverWs);
+    else if (KX_HAS_DISK && type == LIGHT_DISK)
+        emission = diskEvaluate(light, receiverWs);
+    else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
+        emission = directionalEvaluate(light, receiverWs);
+    return emission;
+}
+
+KX_INLINE EmitterOutline lightOutline(LightHot light, vec3 receiverWs) {
+    uint type = lightType(light);
+    if (KX_HAS_TUBE && type == LIGHT_TUBE)
+        return tubeOutline(light, receiverWs);
+    if (KX_HAS_RECT && type == LIGHT_RECT)
+        return rectOutline(light, receiverWs);
+    if (KX_HAS_DISK && type == LIGHT_DISK)
+        return diskOutline(light, receiverWs);
+    if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
+        return directionalOutline(light, receiverWs);
+    if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
+        return sphereOutline(light, receiverWs);
+    return unlitOutline();
+}
+
+// Analytic, unshadowed.
+KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, LtcLobe lobe) {
+    vec3 emission = lightEvaluate(light, point.positionWs);
+    if (luminance(emission) <= 0.0) {
+        LightIrradiance none;
+        none.emission = vec3(0.0);
+        none.diffuse = 0.0;
+        none.specular = vec2(0.0);
+        return none;
+    }
+    return outlineIrradiance(lightOutline(light, point.positionWs), point, lobe, emission);
+}
+
+// About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the luminance of
+// baseColor * (1 - metallic), `f0` that of F0.
+KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0) {
+    vec3 emission = lightEvaluate(light, point.positionWs);
+    if (luminance(emission) <= 0.0)
+        return 0.0;
+    return proxyWeight(lightProxy(light, point.positionWs), point, emission, diffuseAlbedo, f0);
+}
+
+// A point on the light for a uv in the unit square: even in area over what faces the receiver, continuous, fixed
+// to the light's frame up to the mirroring that each type states. Invalid for dead and muted lights, from behind
+// and from inside.
+KX_INLINE LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv) {
+    uint type = lightType(light);
+    LightSample s = invalidSample(uv);
+    if (!lightIsOn(light))
+        return s;
+    if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
+        s = sphereSample(light, receiverWs, uv);
+    else if (KX_HAS_TUBE && type == LIGHT_TUBE)
+        s = tubeSample(light, receiverWs, uv);
+    else if (KX_HAS_RECT && type == LIGHT_RECT)
+        s = rectSample(light, receiverWs, uv);
+    else if (KX_HAS_DISK && type == LIGHT_DISK)
+        s = diskSample(light, receiverWs, uv);
+    else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
+        s = directionalSample(light, receiverWs, uv);
+    return s;
+}
+
+// Where a ray with unit direction meets the emitting side of the light. Points and delta directions are never met.
+KX_INLINE LightHit lightIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
+    uint type = lightType(light);
+    LightHit hit = noHit();
+    if (!lightIsOn(light))
+        return hit;
+    if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
+        hit = sphereIntersect(light, originWs, dirWs);
+    else if (KX_HAS_TUBE && type == LIGHT_TUBE)
+        hit = tubeIntersect(light, originWs, dirWs);
+    else if (KX_HAS_RECT && type == LIGHT_RECT)
+        hit = rectIntersect(light, originWs, dirWs);
+    else if (KX_HAS_DISK && type == LIGHT_DISK)
+        hit = diskIntersect(light, originWs, dirWs);
+    else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
+        hit = directionalIntersect(light, originWs, dirWs);
+    return hit;
+}
+
+// Emitted lumens without the range window, luminance-weighted, muted or not. 0 for directional lights.
+KX_INLINE float lightFlux(LightHot light) {
+    uint type = lightType(light);
+    float fluxLm = 0.0;
+    if (type == LIGHT_SPHERE)
+        fluxLm = sphereFlux(light);
+    else if (type == LIGHT_SPOT)
+        fluxLm = spotFlux(light);
+    else if (type == LIGHT_TUBE)
+        fluxLm = tubeFlux(light);
+    else if (type == LIGHT_RECT)
+        fluxLm = rectFlux(light);
+    else if (type == LIGHT_DISK)
+        fluxLm = diskFlux(light);
+    return fluxLm;
+}
+
+#endif
