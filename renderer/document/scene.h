@@ -98,16 +98,16 @@ struct LightDef {
     LightType type = LightType::Sphere;
     double intensity = 1.0; // in `unit`
     LightUnit unit = LightUnit::Candela;
-    glm::dvec3 color{1.0};       // linear Rec. 709 tint; luminance is not normalized (glTF's rule)
+    glm::dvec3 color{1.0};              // linear Rec. 709 tint; luminance is not normalized (glTF's rule)
     std::optional<double> temperatureK; // multiplies the tint when present
     std::optional<double> rangeM;       // smooth window; absent means derived by the renderer
-    double radiusM = 0.0;           // sphere, spot and tube; 0 on sphere and spot is a point
-    double lengthM = 0.0;           // tube: distance between the centres of its two end caps, along local X
-    double widthM = 1.0;            // rectangle: local X; disk: diameter
-    double heightM = 1.0;           // rectangle: local Y
-    double innerConeRad = 0.0;      // spot, half angle
-    double outerConeRad = 0.78539816339744830962; // spot, half angle, at most pi/2
-    double angularDiameterRad = 0.0; // directional
+    double radiusM = 0.0;               // sphere, spot and tube; 0 on sphere and spot is a point
+    double lengthM = 0.0;      // tube: distance between the centres of its two end caps, along local X
+    double widthM = 1.0;       // rectangle: local X; disk: diameter
+    double heightM = 1.0;      // rectangle: local Y
+    double innerConeRad = 0.0; // spot, half angle
+    double outerConeRad = 0.78539816339744830962;     // spot, half angle, at most pi/2
+    double angularDiameterRad = 0.0;                  // directional
     double barnDoorAngleRad = 1.57079632679489661923; // rectangle: pi/2 is open
     double barnDoorLengthM = 0.0;
     double rayEndBiasM = 0.0; // shadow rays stop this far before the light (mission L7)

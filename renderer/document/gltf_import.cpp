@@ -1,0 +1,51 @@
+// The import from top to bottom: bytes, JSON, checks, structures, scene.
+#include "renderer/document/gltf_model.h"
+
+namespace kilolux {
+
+namespace {
+
+Scene importScene(gltf::ImportContext& context) {
+    using namespace gltf;
+    Bytes file = readFile(context.path, UINT64_MAX, "file");
+    context.fileBytes = file.size();
+    parseDocument(context, file);
+    if (!context.binaryChunk.data()) Bytes().swap(file); // the text is parsed; it may hold large data URIs
+    checkExtensions(context);
+    checkSchema(context);
+    loadBuffers(context);
+    {
+        const tinygltf::Model model = parseModel(context);
+        importMaterials(context, model);
+        importNodes(context, model);
+        importMeshes(context, model);
+    }
+    importLights(context);
+    if (context.droppedWarnings > 0) {
+        context.scene.warnings.push_back(fmt::format("and {} more warnings", context.droppedWarnings));
+    }
+    return std::move(context.scene);
+}
+
+} // namespace
+
+Result<Scene> importGltf(const std::filesystem::path& path, const ImportOptions& options) {
+    const std::string name = gltf::printable(path.string());
+    gltf::ImportContext context;
+    context.path = path;
+    context.options = options;
+    context.scene.sourcePath = path;
+    try {
+        return importScene(context);
+    } catch (const gltf::ImportFailure& failure) {
+        return Error{name + ": " + failure.text};
+    } catch (const std::bad_alloc&) {
+        return Error{name + ": file: expected a scene that fits into memory"};
+    } catch (const std::exception& e) {
+        // Thrown by a library over a value that the checks let through.
+        return Error{
+            fmt::format("{}: file: expected a valid glTF file: {}", name, gltf::printable(e.what()))};
+    }
+}
+
+} // namespace kilolux

@@ -1,0 +1,158 @@
+// Nodes, scenes and cameras (glTF 2.0, sections 3.5 and 3.10). The node graph must be a forest.
+#include "renderer/document/gltf_model.h"
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace kilolux::gltf {
+
+namespace {
+
+bool isFinite(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            // Products of two transforms must stay finite in single precision as well.
+            if (!(std::abs(matrix[column][row]) < 1e18)) return false;
+        }
+    }
+    return true;
+}
+
+glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place) {
+    glm::dmat4 matrix(1.0);
+    if (node.matrix.size() == 16) {
+        for (int i = 0; i < 16; ++i)
+            matrix[i / 4][i % 4] = node.matrix[i];
+        return matrix;
+    }
+    if (node.translation.size() == 3) {
+        matrix = glm::translate(matrix, {node.translation[0], node.translation[1], node.translation[2]});
+    }
+    if (node.rotation.size() == 4) {
+        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+        const double length = glm::length(rotation);
+        if (!(length > 1e-12) || !std::isfinite(length))
+            fail(place + "/rotation", "expected a unit quaternion");
+        matrix *= glm::mat4_cast(rotation / length);
+    }
+    if (node.scale.size() == 3) matrix = glm::scale(matrix, {node.scale[0], node.scale[1], node.scale[2]});
+    return matrix;
+}
+
+void readNodes(ImportContext& context, const tinygltf::Model& model) {
+    std::vector<Node>& nodes = context.scene.nodes;
+    nodes.resize(model.nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::string place = fmt::format("/nodes/{}", i);
+        const tinygltf::Node& source = model.nodes[i];
+        nodes[i].name = source.name;
+        nodes[i].mesh = source.mesh;
+        nodes[i].visible = false;
+        nodes[i].localFromNode = localTransform(source, place);
+        if (!isFinite(nodes[i].localFromNode)) fail(place, "expected a finite transform");
+        for (const int child : source.children) {
+            if (nodes[child].parent >= 0) {
+                fail(place + "/children", "expected one parent for each node, node {} has two: {} and {}",
+                     child, nodes[child].parent, i);
+            }
+            nodes[child].parent = static_cast<int>(i);
+        }
+    }
+}
+
+// Marks what hangs below the default scene; with no scenes at all, everything. Whatever cannot be reached
+// from a root is part of a cycle.
+void markVisible(ImportContext& context, const tinygltf::Model& model) {
+    std::vector<Node>& nodes = context.scene.nodes;
+    std::vector<int> stack;
+    const auto visit = [&](auto&& onNode) {
+        std::size_t count = 0;
+        while (!stack.empty()) {
+            const int node = stack.back();
+            stack.pop_back();
+            if (nodes[node].visible) continue; // a scene may list a node and one below it
+            onNode(nodes[node]);
+            ++count;
+            stack.insert(stack.end(), model.nodes[node].children.begin(), model.nodes[node].children.end());
+        }
+        return count;
+    };
+    std::vector<int> roots;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent < 0) roots.push_back(static_cast<int>(i));
+    }
+    stack = roots;
+    std::vector<bool> reached(nodes.size(), false);
+    if (visit([&](const Node& node) { reached[&node - nodes.data()] = true; }) < nodes.size()) {
+        const auto first = std::find(reached.begin(), reached.end(), false) - reached.begin();
+        fail(fmt::format("/nodes/{}", first),
+             "expected a tree, the node is its own ancestor or below one that is");
+    }
+    const int scene = model.defaultScene >= 0 ? model.defaultScene : 0;
+    stack = scene < static_cast<int>(model.scenes.size()) ? model.scenes[scene].nodes : roots;
+    visit([](Node& node) { node.visible = true; });
+}
+
+// The node's frame without scale or mirroring: a camera looks down -Z with +Y up whatever its parents do.
+glm::dmat4 rigid(const glm::dmat4& worldFromNode) {
+    const glm::dvec3 z = glm::dvec3(worldFromNode[2]), y = glm::dvec3(worldFromNode[1]);
+    glm::dmat4 result(1.0);
+    const glm::dvec3 x = glm::cross(y, z);
+    if (glm::length(z) > 0.0 && glm::length(x) > 0.0) {
+        result[2] = glm::dvec4(glm::normalize(z), 0.0);
+        result[0] = glm::dvec4(glm::normalize(x), 0.0);
+        result[1] = glm::dvec4(glm::cross(glm::dvec3(result[2]), glm::dvec3(result[0])), 0.0);
+    }
+    result[3] = glm::dvec4(glm::dvec3(worldFromNode[3]), 1.0);
+    return result;
+}
+
+Camera readCamera(const tinygltf::Camera& source) {
+    Camera camera;
+    camera.orthographic = source.type == "orthographic";
+    if (camera.orthographic) {
+        camera.xmagM = std::max(std::abs(source.orthographic.xmag), 1e-9);
+        camera.ymagM = std::max(std::abs(source.orthographic.ymag), 1e-9);
+        camera.znearM = source.orthographic.znear;
+        camera.zfarM = source.orthographic.zfar;
+    } else {
+        camera.yfovRad = source.perspective.yfov;
+        camera.znearM = source.perspective.znear;
+        if (source.perspective.zfar > camera.znearM) camera.zfarM = source.perspective.zfar;
+        if (source.perspective.aspectRatio > 0.0) camera.aspect = source.perspective.aspectRatio;
+    }
+    return camera;
+}
+
+void readCameras(ImportContext& context, const tinygltf::Model& model) {
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+        const Node& node = context.scene.nodes[i];
+        const int index = model.nodes[i].camera;
+        if (index < 0 || !node.visible) continue;
+        Camera camera = readCamera(model.cameras[index]);
+        // Artists name the camera object, which exporters write as the node.
+        camera.name = !node.name.empty() ? node.name : model.cameras[index].name;
+        if (camera.name.empty()) camera.name = fmt::format("camera {}", context.scene.cameras.size());
+        camera.worldFromCamera = rigid(node.worldFromNode);
+        context.scene.cameras.push_back(std::move(camera));
+    }
+}
+
+} // namespace
+
+void importNodes(ImportContext& context, const tinygltf::Model& model) {
+    readNodes(context, model);
+    markVisible(context, model);
+    updateWorldTransforms(context.scene);
+    for (std::size_t i = 0; i < context.scene.nodes.size(); ++i) {
+        if (!isFinite(context.scene.nodes[i].worldFromNode)) {
+            fail(fmt::format("/nodes/{}", i), "expected a finite transform in the world");
+        }
+    }
+    readCameras(context, model);
+    if (context.json.contains("skins") || context.json.contains("animations")) {
+        context.warn("/", "skins and animations are shown in their rest pose");
+    }
+}
+
+} // namespace kilolux::gltf

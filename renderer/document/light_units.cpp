@@ -1,0 +1,193 @@
+#include "renderer/document/light_units.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kilolux {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kEv100Nit = 0.125; // luminance of EV100 0: L = 2^EV * K / S with K = 12.5, S = 100
+
+bool hasArea(const LightDef& def) {
+    switch (def.type) {
+    case LightType::Directional:
+        return def.angularDiameterRad > 0.0;
+    case LightType::Sphere:
+    case LightType::Spot:
+    case LightType::Tube:
+        return def.radiusM > 0.0;
+    case LightType::Rect:
+        return def.widthM > 0.0 && def.heightM > 0.0;
+    case LightType::Disk:
+        return def.widthM > 0.0;
+    }
+    return false;
+}
+
+// Intensity per luminance: the area seen from the axis, or a directional light's projected solid angle.
+double projectedExtent(const LightDef& def) {
+    switch (def.type) {
+    case LightType::Directional: {
+        const double sine = std::sin(std::min(def.angularDiameterRad * 0.5, kPi / 2.0));
+        return kPi * sine * sine;
+    }
+    case LightType::Sphere:
+    case LightType::Spot:
+        return kPi * def.radiusM * def.radiusM;
+    case LightType::Tube:
+        return 2.0 * def.radiusM * def.lengthM + kPi * def.radiusM * def.radiusM;
+    case LightType::Rect:
+        return def.widthM * def.heightM;
+    case LightType::Disk:
+        return kPi * def.widthM * def.widthM * 0.25;
+    }
+    return 0.0;
+}
+
+// Integral of saturate((c - cosOuter) * scale)^2 over c = cos(angle) from cosOuter to 1.
+double coneIntegral(const LightDef& def) {
+    const double cosInner = std::cos(def.innerConeRad), cosOuter = std::cos(def.outerConeRad);
+    const double width = std::max(0.001, cosInner - cosOuter);
+    const double full = std::min(1.0, cosOuter + width); // from here on the falloff is 1
+    const double rise = (full - cosOuter) / width;
+    return rise * rise * rise * width / 3.0 + (1.0 - full);
+}
+
+// Flux per candela on the axis.
+double fluxPerCandela(const LightDef& def) {
+    switch (def.type) {
+    case LightType::Directional:
+        return 0.0;
+    case LightType::Sphere:
+        return 4.0 * kPi;
+    case LightType::Spot:
+        return 2.0 * kPi * coneIntegral(def);
+    case LightType::Tube:
+        return kPi * emitterAreaM2(def) / projectedExtent(def);
+    case LightType::Rect:
+    case LightType::Disk:
+        return kPi;
+    }
+    return 0.0;
+}
+
+double wymanLobe(double x, double center, double inverseBelow, double inverseAbove) {
+    const double t = (x - center) * (x < center ? inverseBelow : inverseAbove);
+    return std::exp(-0.5 * t * t);
+}
+
+// Wyman et al. 2013, section 2.2 (multi-lobe fit of the 1931 observer), wavelength in nm.
+glm::dvec3 colorMatching(double nm) {
+    return {0.362 * wymanLobe(nm, 442.0, 0.0624, 0.0374) + 1.056 * wymanLobe(nm, 599.8, 0.0264, 0.0323) -
+                0.065 * wymanLobe(nm, 501.1, 0.0490, 0.0382),
+            0.821 * wymanLobe(nm, 568.8, 0.0213, 0.0247) + 0.286 * wymanLobe(nm, 530.9, 0.0613, 0.0322),
+            1.217 * wymanLobe(nm, 437.0, 0.0845, 0.0278) + 0.681 * wymanLobe(nm, 459.0, 0.0385, 0.0725)};
+}
+
+// XYZ of a black body, Y = 1.
+glm::dvec3 blackBodyXyz(double temperatureK) {
+    constexpr double kSecondRadiationNmK = 1.438776877e7; // h c / k
+    glm::dvec3 xyz(0.0);
+    for (double nm = 360.0; nm <= 830.0; nm += 5.0) {
+        const double exponent = kSecondRadiationNmK / (nm * temperatureK);
+        xyz += colorMatching(nm) / (std::pow(nm / 560.0, 5.0) * std::expm1(exponent));
+    }
+    return xyz / xyz.y;
+}
+
+glm::dmat3 fromRows(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    return glm::transpose(glm::dmat3(a, b, c));
+}
+
+} // namespace
+
+bool unitApplies(const LightDef& def, LightUnit unit) {
+    const bool isDirectional = def.type == LightType::Directional;
+    if (unit == LightUnit::Lumen || unit == LightUnit::Candela) return !isDirectional;
+    return unit == LightUnit::Lux || hasArea(def);
+}
+
+double emitterAreaM2(const LightDef& def) {
+    const double r = def.radiusM;
+    switch (def.type) {
+    case LightType::Directional:
+        return 0.0;
+    case LightType::Sphere:
+    case LightType::Spot:
+        return 4.0 * kPi * r * r;
+    case LightType::Tube:
+        return 2.0 * kPi * r * def.lengthM + 4.0 * kPi * r * r;
+    case LightType::Rect:
+    case LightType::Disk:
+        return projectedExtent(def);
+    }
+    return 0.0;
+}
+
+double baseIntensity(const LightDef& def) {
+    if (!unitApplies(def, def.unit)) return 0.0;
+    switch (def.unit) {
+    case LightUnit::Lumen:
+        return def.intensity / fluxPerCandela(def);
+    case LightUnit::Candela:
+    case LightUnit::Lux:
+        return def.intensity;
+    case LightUnit::Nit:
+        return def.intensity * projectedExtent(def);
+    case LightUnit::Ev100:
+        return kEv100Nit * std::exp2(def.intensity) * projectedExtent(def);
+    }
+    return 0.0;
+}
+
+double fromBaseIntensity(const LightDef& def, double baseValue, LightUnit unit) {
+    if (!unitApplies(def, unit)) return 0.0;
+    switch (unit) {
+    case LightUnit::Lumen:
+        return baseValue * fluxPerCandela(def);
+    case LightUnit::Candela:
+    case LightUnit::Lux:
+        return baseValue;
+    case LightUnit::Nit:
+        return baseValue / projectedExtent(def);
+    case LightUnit::Ev100:
+        return std::log2(baseValue / projectedExtent(def) / kEv100Nit);
+    }
+    return 0.0;
+}
+
+double intensityIn(const LightDef& def, LightUnit unit) {
+    return fromBaseIntensity(def, baseIntensity(def), unit);
+}
+
+double fluxLumen(const LightDef& def) {
+    return def.type == LightType::Directional ? 0.0 : baseIntensity(def) * fluxPerCandela(def);
+}
+
+glm::dvec3 temperatureColor(double temperatureK) {
+    // Bradford cone response and linear Rec. 709 from XYZ (D65), from their published primaries and white.
+    static const glm::dmat3 kBradford =
+        fromRows({0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296});
+    static const glm::dmat3 kRec709FromXyz = glm::inverse(
+        fromRows({0.4123907993, 0.3575843394, 0.1804807884}, {0.2126390059, 0.7151686788, 0.0721923154},
+                 {0.0193308187, 0.1191947798, 0.9505321522}));
+    static const glm::dvec3 kWhiteXyz = glm::inverse(kRec709FromXyz) * glm::dvec3(1.0);
+    static const glm::dvec3 kNeutralCones = kBradford * blackBodyXyz(6500.0);
+    static const glm::dvec3 kWhiteCones = kBradford * kWhiteXyz;
+    const glm::dvec3 cones = kBradford * blackBodyXyz(std::clamp(temperatureK, 1000.0, 40000.0));
+    const glm::dvec3 xyz = glm::inverse(kBradford) * (cones * kWhiteCones / kNeutralCones);
+    const glm::dvec3 color = glm::max(kRec709FromXyz * xyz, glm::dvec3(0.0));
+    return color / luminanceOf(color);
+}
+
+glm::dvec3 emittedColor(const LightDef& def) {
+    return def.temperatureK ? def.color * temperatureColor(*def.temperatureK) : def.color;
+}
+
+double luminanceOf(const glm::dvec3& linearRec709) {
+    return glm::dot(linearRec709, glm::dvec3(0.2126390059, 0.7151686788, 0.0721923154));
+}
+
+} // namespace kilolux

@@ -1,0 +1,75 @@
+// World transforms and measures of the document. Nothing here recurses or trusts the node graph to be a
+// forest: the editor may hold a broken one between two edits.
+#include "renderer/document/scene.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace kilolux {
+
+void updateWorldTransforms(Scene& scene) {
+    enum class State : std::uint8_t { Unknown, OnPath, Done };
+    const int count = static_cast<int>(scene.nodes.size());
+    std::vector<State> states(scene.nodes.size(), State::Unknown);
+    std::vector<int> path; // from a node up to its first ancestor whose transform is known
+    for (int start = 0; start < count; ++start) {
+        int node = start;
+        while (node >= 0 && node < count && states[node] == State::Unknown) {
+            states[node] = State::OnPath;
+            path.push_back(node);
+            node = scene.nodes[node].parent;
+        }
+        // A parent that is on the path itself closes a cycle: its first node is treated as a root.
+        const bool hasParent = node >= 0 && node < count && states[node] == State::Done;
+        glm::dmat4 worldFromParent = hasParent ? scene.nodes[node].worldFromNode : glm::dmat4(1.0);
+        for (; !path.empty(); path.pop_back()) {
+            Node& current = scene.nodes[path.back()];
+            current.worldFromNode = worldFromParent * current.localFromNode;
+            worldFromParent = current.worldFromNode;
+            states[path.back()] = State::Done;
+        }
+    }
+}
+
+namespace {
+
+const Mesh* visibleMesh(const Scene& scene, const Node& node) {
+    if (!node.visible || node.mesh < 0 || node.mesh >= static_cast<int>(scene.meshes.size())) return nullptr;
+    return scene.meshes[node.mesh].get();
+}
+
+} // namespace
+
+Bounds worldBounds(const Scene& scene) {
+    const double inf = std::numeric_limits<double>::infinity();
+    Bounds bounds{glm::dvec3(inf), glm::dvec3(-inf)};
+    for (const Node& node : scene.nodes) {
+        const Mesh* mesh = visibleMesh(scene, node);
+        if (!mesh) continue;
+        for (const Primitive& primitive : mesh->primitives) {
+            if (primitive.indices.empty()) continue;
+            for (int corner = 0; corner < 8; ++corner) {
+                const glm::dvec3 local(corner & 1 ? primitive.boundsMax.x : primitive.boundsMin.x,
+                                       corner & 2 ? primitive.boundsMax.y : primitive.boundsMin.y,
+                                       corner & 4 ? primitive.boundsMax.z : primitive.boundsMin.z);
+                const glm::dvec3 world(node.worldFromNode * glm::dvec4(local, 1.0));
+                bounds.min = glm::min(bounds.min, world);
+                bounds.max = glm::max(bounds.max, world);
+            }
+        }
+    }
+    return bounds.min.x <= bounds.max.x ? bounds : Bounds{};
+}
+
+std::size_t triangleCount(const Scene& scene) {
+    std::size_t count = 0;
+    for (const Node& node : scene.nodes) {
+        const Mesh* mesh = visibleMesh(scene, node);
+        if (!mesh) continue;
+        for (const Primitive& primitive : mesh->primitives)
+            count += primitive.indices.size() / 3;
+    }
+    return count;
+}
+
+} // namespace kilolux
