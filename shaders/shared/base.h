@@ -15,6 +15,7 @@ using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 using ivec2 = glm::ivec2;
 using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
 using uvec4 = glm::uvec4;
 using mat4 = glm::mat4;
 } // namespace kilolux::shared
