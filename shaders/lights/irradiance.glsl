@@ -121,7 +121,7 @@ KX_INLINE LightIrradiance outlineIrradiance(EmitterOutline outline, ShadingPoint
     float ratio = fitted > 0.0 ? min(exact.x / fitted, 8.0) : 1.0;
     ratio = mix(ratio, 1.0, covered);
     float specular = covered * lobe.amplitude * ratio;
-    float fresnel = saturate(exact.y * mix(1.0, lobe.fresnelScale, covered));
+    float fresnel = saturate(exact.y + covered * lobe.fresnelOffset);
     result.specular = vec2(specular * (1.0 - fresnel), specular * fresnel);
     return result;
 }

@@ -19,7 +19,7 @@ struct LtcLobe {
     mat3 worldFromLtc;
     float density;      // determinant of ltcFromWorld over pi: scales the density in directions
     float amplitude;    // integral of D * V * cosine over the hemisphere, over that of the LTC above the horizon
-    float fresnelScale; // corrects Schlick's weight at the lobe's mean direction to its mean over the lobe
+    float fresnelOffset; // mean of Schlick's weight over the lobe, minus its value at the lobe's mean direction
     vec2 albedo;        // pre-integrated environment BRDF: F0 * x + F90 * y
 };
 

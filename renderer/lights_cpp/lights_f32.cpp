@@ -1,0 +1,26 @@
+// The float build. Compiled with -fsingle-precision-constant, because the shaders' literals have no suffix.
+#include "renderer/lights_cpp/lights_f32.h"
+
+#include "renderer/lights_cpp/ltc_table.h"
+
+#include <glm/gtc/packing.hpp>
+
+static_assert(sizeof(0.5) == sizeof(float), "compile this file with -fsingle-precision-constant");
+
+namespace kilolux::f32 {
+
+using namespace glm;
+using namespace shared;
+
+static vec4 ltcLookup0(vec2 uv) {
+    return vec4(boundLtcTable().sample(uv, LtcLayer::Parameters));
+}
+static vec4 ltcLookup1(vec2 uv) {
+    return vec4(boundLtcTable().sample(uv, LtcLayer::Scales));
+}
+
+#define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
+#include "shaders/lights/light.glsl"
+#include "shaders/math/hash.glsl"
+
+} // namespace kilolux::f32

@@ -1,0 +1,24 @@
+// shaders/math and shaders/lights as C++ in float: the numbers a shader gets. For GPU tests, flux and numerical
+// error. lightIrradiance and makeLtcLobe need a table bound by useLtcTable (ltc_table.h).
+#pragma once
+
+#include "shaders/shared/gpu_light.h"
+
+#include <glm/glm.hpp>
+
+namespace kilolux::f32 {
+
+using uint = std::uint32_t;
+using vec2 = glm::vec2;
+using vec3 = glm::vec3;
+using vec4 = glm::vec4;
+using uvec2 = glm::uvec2;
+using mat3 = glm::mat3;
+using shared::LightHot;
+
+#include "shaders/lights/light_types.glsl"
+#undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f64.h reads it again
+
+#include "renderer/lights_cpp/lights_api.inl"
+
+} // namespace kilolux::f32

@@ -1,0 +1,39 @@
+// The double build.
+#include "renderer/lights_cpp/lights_f64.h"
+
+#include "renderer/lights_cpp/ltc_table.h"
+
+#include <glm/gtc/packing.hpp>
+
+static_assert(sizeof(0.5) == sizeof(double), "compile this file without -fsingle-precision-constant");
+
+namespace kilolux::f64 {
+
+using namespace glm;
+using namespace shared;
+
+LightHot fromF32(const shared::LightHot& light) {
+    return {.positionWs = vec3(light.positionWs),
+            .invRange = light.invRange,
+            .dirWs = vec3(light.dirWs),
+            .tangentOct = light.tangentOct,
+            .intensity = vec3(light.intensity),
+            .typeFlags = light.typeFlags,
+            .sizeM = vec2(light.sizeM),
+            .shaping = vec2(light.shaping)};
+}
+
+static vec4 ltcLookup0(vec2 uv) {
+    return boundLtcTable().sample(uv, LtcLayer::Parameters);
+}
+static vec4 ltcLookup1(vec2 uv) {
+    return boundLtcTable().sample(uv, LtcLayer::Scales);
+}
+
+#define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
+#define float double
+#include "shaders/lights/light.glsl"
+#include "shaders/math/hash.glsl"
+#undef float
+
+} // namespace kilolux::f64

@@ -1,0 +1,29 @@
+// shaders/math and shaders/lights as C++ in double: the same source without its rounding. lightIrradiance and
+// makeLtcLobe need a table bound by useLtcTable (ltc_table.h).
+#pragma once
+
+#include "shaders/shared/gpu_light.h"
+
+#include <glm/glm.hpp>
+
+namespace kilolux::f64 {
+
+using uint = std::uint32_t;
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
+using uvec2 = glm::uvec2;
+using mat3 = glm::dmat3;
+
+#define float double
+#include "shaders/lights/light_types.glsl"
+#include "shaders/shared/light_hot.inl"
+#undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f32.h reads it again
+
+#include "renderer/lights_cpp/lights_api.inl"
+#undef float
+
+// The exact values of a float record.
+LightHot fromF32(const shared::LightHot& light);
+
+} // namespace kilolux::f64
