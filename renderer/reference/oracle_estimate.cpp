@@ -1,0 +1,292 @@
+// Estimators of the oracle. Unshadowed light is quadrature, so a point that sees a whole light has no noise
+// at all. True: unbiased control variate around that quadrature, with shadow rays drawn in proportion to the
+// integrand. Split: quadrature times the mean visibility under uniform area sampling.
+#include "renderer/reference/oracle_estimate.h"
+
+#include "renderer/reference/oracle_quadrature.h"
+#include "renderer/reference/oracle_random.h"
+
+#include <cmath>
+#include <limits>
+
+namespace kilolux::oracle {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr int kReplicas = 8; // independently shifted point sets: they give the standard error
+constexpr double kDielectricF0 = 0.04;
+
+double luminanceOf(const dvec3& rgb) {
+    return glm::dot(rgb, dvec3(0.2126, 0.7152, 0.0722));
+}
+
+dvec3 f0Of(const PointMaterial& material) {
+    return glm::mix(dvec3(kDielectricF0), material.baseColor, material.metallic);
+}
+
+dvec3 diffuseAlbedoOf(const PointMaterial& material) {
+    return material.baseColor * (1.0 - material.metallic);
+}
+
+bool reaches(const OraclePoint& point, const Occlusion& occlusion, const OracleLight& light,
+             const dvec3& directionWs, double distanceM) {
+    if (glm::dot(point.geometricNormalWs, directionWs) <= 0.0) return false;
+    const double lengthM = distanceM - light.rayEndBiasM;
+    return !occlusion || lengthM <= 0.0 || !occlusion(directionWs, lengthM);
+}
+
+// Distance from the receiver to the light's surface along a direction in which it is seen.
+double distanceTo(const OracleLight& light, const dvec3& receiverWs, const dvec3& directionWs) {
+    const dvec3 toCenter = light.centerWs - receiverWs;
+    const auto toBall = [&](const dvec3& center) {
+        const double along = glm::dot(center, directionWs);
+        const dvec3 across = center - directionWs * along;
+        const double chord2 = light.radiusM * light.radiusM - glm::dot(across, across);
+        return chord2 < 0.0 ? std::numeric_limits<double>::infinity() : along - std::sqrt(chord2);
+    };
+    switch (light.type) {
+    case LightType::Directional:
+        return std::numeric_limits<double>::infinity();
+    case LightType::Rect:
+    case LightType::Disk:
+        return glm::dot(light.dirWs, toCenter) / glm::dot(light.dirWs, directionWs);
+    case LightType::Tube:
+        break;
+    default:
+        return std::min(toBall(toCenter), glm::length(toCenter));
+    }
+    // Capsule: the cylinder where it is met between the end centres, else the nearer end ball.
+    const dvec3 across = directionWs - light.xWs * glm::dot(directionWs, light.xWs);
+    const dvec3 centerAcross = toCenter - light.xWs * glm::dot(toCenter, light.xWs);
+    const double a = glm::dot(across, across);
+    const double b = glm::dot(across, centerAcross);
+    const double c = glm::dot(centerAcross, centerAcross) - light.radiusM * light.radiusM;
+    if (a > 0.0 && b * b - a * c >= 0.0) {
+        const double t = (b - std::sqrt(b * b - a * c)) / a;
+        if (t > 0.0 && std::abs(glm::dot(directionWs * t - toCenter, light.xWs)) <= light.halfLengthM)
+            return t;
+    }
+    const dvec3 half = light.xWs * light.halfLengthM;
+    return std::min({toBall(toCenter - half), toBall(toCenter + half), glm::length(toCenter)});
+}
+
+// Sums of one replica: integrand with and without visibility.
+struct ReplicaSums {
+    LobeIntegral visible;
+    LobeIntegral all;
+};
+
+// Integrals that arrive, each replica corrected by the known unshadowed value with a coefficient from the
+// other replicas, which keeps the mean exact.
+struct ShadowedIntegrals {
+    double diffuse[kReplicas];
+    double specularF0[kReplicas];
+    double specularOne[kReplicas];
+};
+
+void correct(const std::vector<ReplicaSums>& sums, double LobeIntegral::*part, double exact, double* out) {
+    double visible = 0.0;
+    double all = 0.0;
+    for (const ReplicaSums& replica : sums) {
+        visible += replica.visible.*part;
+        all += replica.all.*part;
+    }
+    for (int r = 0; r < kReplicas; ++r) {
+        const double othersAll = all - sums[r].all.*part;
+        const double coefficient =
+            othersAll > 0.0 ? std::clamp((visible - sums[r].visible.*part) / othersAll, 0.0, 1.0) : 0.0;
+        out[r] = sums[r].visible.*part + coefficient * (exact - sums[r].all.*part);
+    }
+}
+
+void add(LobeIntegral& sum, const LobeIntegral& value, double factor) {
+    sum.diffuse += value.diffuse * factor;
+    sum.specularF0 += value.specularF0 * factor;
+    sum.specularOne += value.specularOne * factor;
+}
+
+ShadowedIntegrals estimateTrue(const OracleLight& light, const OraclePoint& point, const Occlusion& occlusion,
+                               LobeQuadrature& quadrature, const LobeIntegral& exact, int samples,
+                               std::uint64_t seed) {
+    quadrature.prepareSampling(luminanceOf(f0Of(point.material)));
+    const int perReplica = samples / kReplicas;
+    std::vector<ReplicaSums> sums(kReplicas);
+    for (int r = 0; r < kReplicas; ++r) {
+        for (int i = 0; i < perReplica; ++i) {
+            const glm::dvec2 uv = sobolPoint(i, seedOf({seed, static_cast<std::uint64_t>(r)}));
+            const LobeQuadrature::Sample sample = quadrature.draw(uv.x, uv.y);
+            add(sums[r].all, sample.value, 1.0 / perReplica);
+            const double distanceM = distanceTo(light, point.positionWs, sample.direction);
+            if (reaches(point, occlusion, light, sample.direction, distanceM))
+                add(sums[r].visible, sample.value, 1.0 / perReplica);
+        }
+    }
+    ShadowedIntegrals result;
+    correct(sums, &LobeIntegral::diffuse, exact.diffuse, result.diffuse);
+    correct(sums, &LobeIntegral::specularF0, exact.specularF0, result.specularF0);
+    correct(sums, &LobeIntegral::specularOne, exact.specularOne, result.specularOne);
+    return result;
+}
+
+ShadowedIntegrals estimateSplit(const OracleLight& light, const OraclePoint& point,
+                                const Occlusion& occlusion, const LobeIntegral& exact, int samples,
+                                std::uint64_t seed) {
+    constexpr int kMaxRejections = 64; // rounds in search of points above the horizon
+    const int perReplica = samples / kReplicas;
+    ShadowedIntegrals result;
+    for (int r = 0; r < kReplicas; ++r) {
+        int valid = 0;
+        int visible = 0;
+        for (int i = 0; valid < perReplica && i < perReplica * kMaxRejections; ++i) {
+            const glm::dvec2 uv = sobolPoint(i, seedOf({seed, static_cast<std::uint64_t>(r)}));
+            const SourcePoint source = sampleSource(light, point.positionWs, uv.x, uv.y);
+            if (!source.faces || glm::dot(point.shadingNormalWs, source.directionWs) <= 0.0) continue;
+            ++valid;
+            visible += reaches(point, occlusion, light, source.directionWs, source.distanceM) ? 1 : 0;
+        }
+        const double mean = valid > 0 ? static_cast<double>(visible) / valid : 0.0;
+        result.diffuse[r] = exact.diffuse * mean;
+        result.specularF0[r] = exact.specularF0 * mean;
+        result.specularOne[r] = exact.specularOne * mean;
+    }
+    return result;
+}
+
+// A light in one direction, without area: `irradianceLux` on a surface that faces it.
+OraclePointResult evaluateDelta(const OracleLight& light, const OraclePoint& point,
+                                const Occlusion& occlusion, const dvec3& directionWs, double distanceM,
+                                const dvec3& irradianceLux) {
+    const LobeValue value =
+        Lobe(point.shadingNormalWs, point.viewDirWs, point.material.roughness)(directionWs);
+    OraclePointResult result;
+    if (value.noL <= 0.0) return result;
+    result.unshadowedIrradianceLux = irradianceLux * value.noL;
+    result.unshadowedDiffuseNit = result.unshadowedIrradianceLux * diffuseAlbedoOf(point.material) / kPi;
+    result.unshadowedSpecularNit =
+        irradianceLux * (f0Of(point.material) * value.specularF0 + dvec3(value.specularOne));
+    if (!reaches(point, occlusion, light, directionWs, distanceM)) return result;
+    result.visibility = 1.0;
+    result.irradianceLux = result.unshadowedIrradianceLux;
+    result.diffuseNit = result.unshadowedDiffuseNit;
+    result.specularNit = result.unshadowedSpecularNit;
+    return result;
+}
+
+OraclePointResult assemble(const OraclePoint& point, const dvec3& radianceNit, const LobeIntegral& exact,
+                           const ShadowedIntegrals& shadowed) {
+    const dvec3 albedo = diffuseAlbedoOf(point.material);
+    const dvec3 f0 = f0Of(point.material);
+    OraclePointResult result;
+    result.unshadowedIrradianceLux = radianceNit * exact.diffuse;
+    result.unshadowedDiffuseNit = result.unshadowedIrradianceLux * albedo / kPi;
+    result.unshadowedSpecularNit = radianceNit * (f0 * exact.specularF0 + dvec3(exact.specularOne));
+    dvec3 sum(0.0);
+    dvec3 sumOfSquares(0.0);
+    double diffuse = 0.0;
+    for (int r = 0; r < kReplicas; ++r) {
+        const dvec3 diffuseNit = radianceNit * shadowed.diffuse[r] * albedo / kPi;
+        const dvec3 specularNit =
+            radianceNit * (f0 * shadowed.specularF0[r] + dvec3(shadowed.specularOne[r]));
+        result.diffuseNit += diffuseNit / double(kReplicas);
+        result.specularNit += specularNit / double(kReplicas);
+        diffuse += shadowed.diffuse[r] / kReplicas;
+        sum += diffuseNit + specularNit;
+        sumOfSquares += (diffuseNit + specularNit) * (diffuseNit + specularNit);
+    }
+    result.irradianceLux = radianceNit * diffuse;
+    result.visibility = exact.diffuse > 0.0 ? diffuse / exact.diffuse : 0.0;
+    const dvec3 variance =
+        glm::max(sumOfSquares - sum * sum / double(kReplicas), dvec3(0.0)) / (kReplicas - 1.0);
+    result.standardErrorNit = glm::sqrt(variance / double(kReplicas));
+    return result;
+}
+
+} // namespace
+
+SourcePoint sampleSource(const OracleLight& light, const dvec3& receiverWs, double u, double v) {
+    const double phi = 2.0 * kPi * u;
+    const dvec3 toCenter = light.centerWs - receiverWs;
+    dvec3 offset(0.0);
+    dvec3 outward = light.dirWs;
+    switch (light.type) {
+    case LightType::Directional: {
+        const double r = std::tan(light.angularRadiusRad) * std::sqrt(v);
+        const dvec3 to = -light.dirWs + light.xWs * (r * std::cos(phi)) + light.yWs * (r * std::sin(phi));
+        return {glm::normalize(to), std::numeric_limits<double>::infinity(), true};
+    }
+    case LightType::Rect:
+        offset = light.xWs * ((2.0 * u - 1.0) * light.halfWidthM) +
+                 light.yWs * ((2.0 * v - 1.0) * light.halfHeightM);
+        break;
+    case LightType::Disk: {
+        const double r = light.radiusM * std::sqrt(v);
+        offset = light.xWs * (r * std::cos(phi)) + light.yWs * (r * std::sin(phi));
+        break;
+    }
+    case LightType::Tube: {
+        // Equal areas: the two half balls as one sphere (share r / (r + h)), the cylinder for the rest.
+        const double ballShare = light.radiusM / (light.radiusM + light.halfLengthM);
+        const dvec3 y = light.yWs;
+        const dvec3 z = -light.dirWs;
+        if (v < ballShare) {
+            const double cosTheta = 1.0 - 2.0 * v / ballShare;
+            const double sinTheta = std::sqrt(std::max(1.0 - cosTheta * cosTheta, 0.0));
+            outward = light.xWs * cosTheta + (y * std::cos(phi) + z * std::sin(phi)) * sinTheta;
+            offset = outward * light.radiusM + light.xWs * std::copysign(light.halfLengthM, cosTheta);
+        } else {
+            const double along = 2.0 * (v - ballShare) / (1.0 - ballShare) - 1.0;
+            outward = y * std::cos(phi) + z * std::sin(phi);
+            offset = outward * light.radiusM + light.xWs * (along * light.halfLengthM);
+        }
+        break;
+    }
+    case LightType::Sphere:
+    case LightType::Spot: {
+        // The cap that the receiver sees: cos from r/d to 1 about the direction to it.
+        const double distanceM = glm::length(toCenter);
+        const dvec3 axis = -toCenter / distanceM;
+        const double cosTheta = 1.0 - v * (1.0 - std::min(light.radiusM / distanceM, 1.0));
+        const double sinTheta = std::sqrt(std::max(1.0 - cosTheta * cosTheta, 0.0));
+        const dvec3 other = std::abs(axis.x) < 0.6 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
+        const dvec3 x = glm::normalize(glm::cross(other, axis));
+        outward = axis * cosTheta + (x * std::cos(phi) + glm::cross(axis, x) * std::sin(phi)) * sinTheta;
+        offset = outward * light.radiusM;
+        break;
+    }
+    }
+    const dvec3 to = toCenter + offset;
+    const double distanceM = glm::length(to);
+    return {to / distanceM, distanceM, glm::dot(outward, to) < 0.0};
+}
+
+OraclePointResult estimateLight(const OracleLight& light, const OraclePoint& point,
+                                const Occlusion& occlusion, Estimator estimator, int samples,
+                                std::uint64_t seed) {
+    const double shaping = shapingAt(light, point.positionWs);
+    if (light.muted || shaping <= 0.0) return {};
+    if (light.isDelta()) {
+        if (light.type == LightType::Directional)
+            return evaluateDelta(light, point, occlusion, -light.dirWs,
+                                 std::numeric_limits<double>::infinity(), light.illuminanceLux);
+        const dvec3 to = light.centerWs - point.positionWs;
+        const double distanceM = glm::length(to);
+        return evaluateDelta(light, point, occlusion, to / distanceM, distanceM,
+                             light.intensityCd * (shaping / (distanceM * distanceM)));
+    }
+    const std::optional<SourceRegion> region =
+        SourceRegion::make(light, point.positionWs, point.shadingNormalWs);
+    if (!region) return {};
+    LobeQuadrature quadrature(*region,
+                              Lobe(point.shadingNormalWs, point.viewDirWs, point.material.roughness));
+    LobeIntegral exact = quadrature.integral();
+    exact.diffuse = diffuseIntegral(*region, point.shadingNormalWs);
+    const int rounded = std::max(samples + kReplicas - 1, kReplicas) / kReplicas * kReplicas;
+    const ShadowedIntegrals shadowed =
+        estimator == Estimator::True ? estimateTrue(light, point, occlusion, quadrature, exact, rounded, seed)
+                                     : estimateSplit(light, point, occlusion, exact, rounded, seed);
+    return assemble(point, light.radianceNit * shaping, exact, shadowed);
+}
+
+} // namespace kilolux::oracle

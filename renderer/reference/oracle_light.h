@@ -1,0 +1,49 @@
+// A light as the oracle sees it: placed in the world, in SI photometric units, derived from the document's
+// definition by the oracle's own arithmetic (no code of the renderer is used, so that an error there shows).
+// Lambert sources: every point of the surface has radiance `radianceNit`; shaping (range window, spot cone)
+// depends on the receiver and the light's centre only.
+#pragma once
+
+#include "renderer/document/scene.h"
+
+#include <optional>
+
+namespace kilolux::oracle {
+
+inline constexpr double kPi = 3.14159265358979323846;
+
+struct OracleLight {
+    LightType type = LightType::Sphere;
+    bool muted = false;
+    glm::dvec3 centerWs{0.0};
+    glm::dvec3 dirWs{0.0, 0.0, -1.0}; // unit; the light looks this way
+    glm::dvec3 xWs{1.0, 0.0, 0.0};    // unit; width of a rectangle, axis of a tube
+    glm::dvec3 yWs{0.0, 1.0, 0.0};    // unit; xWs, yWs, -dirWs are right-handed
+    double radiusM = 0.0;             // sphere, spot, tube, disk
+    double halfLengthM = 0.0;         // tube
+    double halfWidthM = 0.0;          // rectangle
+    double halfHeightM = 0.0;         // rectangle
+    double angularRadiusRad = 0.0;    // directional
+    double cosInner = 1.0;            // spot
+    double cosOuter = 0.0;            // spot
+    std::optional<double> rangeM;
+    double rayEndBiasM = 0.0;
+    glm::dvec3 intensityCd{0.0};    // local lights
+    glm::dvec3 illuminanceLux{0.0}; // directional, on a surface that faces it
+    glm::dvec3 radianceNit{0.0};    // 0 for lights without extent
+
+    // A point or an infinitely distant point: one direction, no area.
+    bool isDelta() const;
+};
+
+// `rangeM` overrides the definition's range when present (derived ranges come from the caller).
+OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode,
+                      std::optional<double> rangeM = {});
+
+// Window x cone towards a receiver: a factor on the whole light, 1 for directional lights.
+double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs);
+
+// Solid angle that a spot's cone passes, weighted by the cone's factor: 2 pi Int C(cos) d cos, in sr.
+double coneSolidAngleSr(double cosInner, double cosOuter);
+
+} // namespace kilolux::oracle
