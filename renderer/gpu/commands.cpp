@@ -1,0 +1,335 @@
+// Recording, barriers and timers, see commands.h.
+#include "commands.h"
+
+#include <algorithm>
+#include <chrono>
+#include <fmt/format.h>
+
+namespace kilolux::gpu {
+
+namespace {
+
+constexpr std::uint32_t kMaxQueries = 2048;
+constexpr std::uint32_t kSetsPerPool = 128;
+
+struct UsageInfo {
+    VkPipelineStageFlags2 stage;
+    VkAccessFlags2 read;
+    VkAccessFlags2 write;
+    VkImageLayout layout;
+};
+
+constexpr VkPipelineStageFlags2 kGraphicsShaders =
+    VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+
+UsageInfo usageInfo(Usage usage) {
+    constexpr auto compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    constexpr auto build = VK_PIPELINE_STAGE_2_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
+    constexpr auto storageRead = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+    constexpr auto storageWrite = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    constexpr auto general = VK_IMAGE_LAYOUT_GENERAL;
+    switch (usage) {
+    case Usage::ComputeSampled:
+        return {compute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    case Usage::ComputeStorageRead: return {compute, storageRead, 0, general};
+    case Usage::ComputeStorageWrite: return {compute, 0, storageWrite, general};
+    case Usage::ComputeStorageReadWrite: return {compute, storageRead, storageWrite, general};
+    case Usage::ComputeUniform: return {compute, VK_ACCESS_2_UNIFORM_READ_BIT, 0, general};
+    case Usage::ComputeAccelerationStructure:
+        return {compute, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0, general};
+    case Usage::GraphicsSampled:
+        return {kGraphicsShaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    case Usage::GraphicsStorageRead: return {kGraphicsShaders, storageRead, 0, general};
+    case Usage::GraphicsUniform: return {kGraphicsShaders, VK_ACCESS_2_UNIFORM_READ_BIT, 0, general};
+    case Usage::ColorAttachment:
+        return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+                VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    case Usage::DepthAttachment:
+        return {VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    case Usage::IndexRead:
+        return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, 0, general};
+    case Usage::IndirectRead:
+        return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, 0, general};
+    case Usage::TransferRead:
+        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, 0,
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+    case Usage::TransferWrite:
+        return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+    case Usage::AccelerationBuildRead:
+        return {build, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0, general};
+    case Usage::AccelerationBuildWrite:
+        return {build, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR,
+                VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, general};
+    }
+    failContract("unknown Usage");
+}
+
+double nowMs() {
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+bool Commands::dropBarriersForTest = false;
+
+void PassTimes::add(std::string_view name, double ms) {
+    for (Entry& entry : entries_) {
+        if (entry.name == name) {
+            entry.ms.push_back(ms);
+            return;
+        }
+    }
+    entries_.push_back({std::string(name), {ms}});
+}
+
+Commands::Commands(Device& device, PassTimes* times) : device_(device), times_(times) {
+    VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+    poolInfo.queueFamilyIndex = device.queueFamily();
+    KX_VK(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool_));
+    if (times && device.hasReliableTimestamps()) {
+        VkQueryPoolCreateInfo queryInfo{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+        queryInfo.queryType = VK_QUERY_TYPE_TIMESTAMP;
+        queryInfo.queryCount = kMaxQueries;
+        KX_VK(vkCreateQueryPool(device.handle(), &queryInfo, nullptr, &queries_));
+        vkResetQueryPool(device.handle(), queries_, 0, kMaxQueries);
+    }
+}
+
+Commands::~Commands() {
+    for (VkDescriptorPool pool : descriptorPools_) vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
+    if (queries_) vkDestroyQueryPool(device_.handle(), queries_, nullptr);
+    vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+VkCommandBuffer Commands::handle() {
+    if (!open_) openBuffer();
+    return open_;
+}
+
+void Commands::openBuffer() {
+    VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    info.commandPool = pool_;
+    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    info.commandBufferCount = 1;
+    KX_VK(vkAllocateCommandBuffers(device_.handle(), &info, &open_));
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    KX_VK(vkBeginCommandBuffer(open_, &begin));
+}
+
+void Commands::closeBuffer() {
+    if (!open_) return;
+    KX_VK(vkEndCommandBuffer(open_));
+    recorded_.push_back(open_);
+    open_ = VK_NULL_HANDLE;
+}
+
+void Commands::beginPass(std::string_view name) {
+    if (inPass_) failContract(fmt::format("pass '{}' begins inside another", name));
+    inPass_ = true;
+    if (times_ && !queries_) submitOpen(); // wall timing: nothing before may run inside this pass
+    if (device_.options().commandBufferPerPass) closeBuffer();
+    const std::string label(name);
+    if (device_.cmdBeginLabel) {
+        VkDebugUtilsLabelEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+        info.pLabelName = label.c_str();
+        device_.cmdBeginLabel(handle(), &info);
+    }
+    if (!times_) return;
+    timers_.push_back({label, queryCount_, nowMs()});
+    if (!queries_) return;
+    if (queryCount_ + 2 > kMaxQueries) failContract("more passes than timers in one submission");
+    vkCmdWriteTimestamp2(handle(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, queryCount_++);
+}
+
+void Commands::endPass() {
+    inPass_ = false;
+    if (times_ && queries_) {
+        vkCmdWriteTimestamp2(handle(), VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_, queryCount_++);
+    }
+    if (device_.cmdEndLabel) device_.cmdEndLabel(handle());
+    if (times_ && !queries_) {
+        submitOpen();
+        times_->add(timers_.back().name, nowMs() - timers_.back().startMs);
+        timers_.clear();
+    }
+}
+
+void Commands::need(AccessState& state, Usage usage, const Image* image, std::uint32_t mip) {
+    const UsageInfo info = usageInfo(usage);
+    const bool relayout = image && state.layout != info.layout;
+    const bool writes = info.write != 0 || relayout;
+    VkPipelineStageFlags2 sourceStage = 0;
+    VkAccessFlags2 sourceAccess = 0;
+    if (writes) {
+        sourceStage = state.writeStage | state.readStages;
+        sourceAccess = state.writeAccess;
+    } else if (state.writeStage && ((info.stage & ~state.visibleStages) || (info.read & ~state.visibleAccess))) {
+        sourceStage = state.writeStage;
+        sourceAccess = state.writeAccess;
+    }
+    if (relayout) {
+        VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+        barrier.srcStageMask = sourceStage;
+        barrier.srcAccessMask = sourceAccess;
+        barrier.dstStageMask = info.stage;
+        barrier.dstAccessMask = info.read | info.write;
+        barrier.oldLayout = state.layout;
+        barrier.newLayout = info.layout;
+        barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.image = image->handle();
+        barrier.subresourceRange = {image->aspect(), mip, 1, 0, image->desc().layers};
+        imageBarriers_.push_back(barrier);
+    } else if (sourceStage) {
+        memoryBarrier_.srcStageMask |= sourceStage;
+        memoryBarrier_.srcAccessMask |= sourceAccess;
+        memoryBarrier_.dstStageMask |= info.stage;
+        memoryBarrier_.dstAccessMask |= info.read | info.write;
+    }
+    if (writes) {
+        state.writeStage = info.stage;
+        state.writeAccess = info.write;
+        state.readStages = info.write ? 0 : info.stage;
+        state.visibleStages = info.write ? 0 : info.stage;
+        state.visibleAccess = info.write ? 0 : info.read;
+    } else {
+        state.readStages |= info.stage;
+        state.visibleStages |= info.stage;
+        state.visibleAccess |= info.read;
+    }
+    if (image) state.layout = info.layout;
+}
+
+void Commands::use(const Buffer& buffer, Usage usage) { need(buffer.state(), usage, nullptr, 0); }
+
+void Commands::use(const Image& image, std::uint32_t mip, Usage usage) { need(image.state(mip), usage, &image, mip); }
+
+void Commands::use(const Image& image, Usage usage) {
+    for (std::uint32_t mip = 0; mip < image.desc().mips; ++mip) use(image, mip, usage);
+}
+
+void Commands::flushBarriers() {
+    const bool memory = memoryBarrier_.srcStageMask != 0;
+    if ((memory || !imageBarriers_.empty()) && !(dropBarriersForTest && imageBarriers_.empty())) {
+        VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        info.memoryBarrierCount = memory ? 1 : 0;
+        info.pMemoryBarriers = &memoryBarrier_;
+        info.imageMemoryBarrierCount = std::uint32_t(imageBarriers_.size());
+        info.pImageMemoryBarriers = imageBarriers_.data();
+        vkCmdPipelineBarrier2(handle(), &info);
+    }
+    imageBarriers_.clear();
+    memoryBarrier_ = {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+}
+
+void Commands::copyBuffer(const Buffer& from, VkDeviceSize fromOffset, const Buffer& to, VkDeviceSize toOffset,
+                          VkDeviceSize bytes) {
+    use(from, Usage::TransferRead);
+    use(to, Usage::TransferWrite);
+    flushBarriers();
+    const VkBufferCopy region{fromOffset, toOffset, bytes};
+    vkCmdCopyBuffer(handle(), from.handle(), to.handle(), 1, &region);
+}
+
+namespace {
+VkBufferImageCopy wholeMip(const Image& image, std::uint32_t mip, std::uint32_t layer, VkDeviceSize offset) {
+    VkBufferImageCopy region{};
+    region.bufferOffset = offset;
+    region.imageSubresource = {image.aspect(), mip, layer, 1};
+    const ImageDesc& desc = image.desc();
+    region.imageExtent = {std::max(1u, desc.width >> mip), std::max(1u, desc.height >> mip),
+                          std::max(1u, desc.depth >> mip)};
+    return region;
+}
+} // namespace
+
+void Commands::copyBufferToImage(const Buffer& from, VkDeviceSize offset, const Image& to, std::uint32_t mip,
+                                 std::uint32_t layer) {
+    use(from, Usage::TransferRead);
+    use(to, mip, Usage::TransferWrite);
+    flushBarriers();
+    const VkBufferImageCopy region = wholeMip(to, mip, layer, offset);
+    vkCmdCopyBufferToImage(handle(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+}
+
+void Commands::copyImageToBuffer(const Image& from, std::uint32_t mip, std::uint32_t layer, const Buffer& to,
+                                 VkDeviceSize offset) {
+    use(from, mip, Usage::TransferRead);
+    use(to, Usage::TransferWrite);
+    flushBarriers();
+    const VkBufferImageCopy region = wholeMip(from, mip, layer, offset);
+    vkCmdCopyImageToBuffer(handle(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1, &region);
+}
+
+void Commands::clearColor(const Image& image, const VkClearColorValue& value) {
+    use(image, Usage::TransferWrite);
+    flushBarriers();
+    const VkImageSubresourceRange range{image.aspect(), 0, image.desc().mips, 0, image.desc().layers};
+    vkCmdClearColorImage(handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &value, 1, &range);
+}
+
+void Commands::fillBuffer(const Buffer& buffer, std::uint32_t value) {
+    use(buffer, Usage::TransferWrite);
+    flushBarriers();
+    vkCmdFillBuffer(handle(), buffer.handle(), 0, VK_WHOLE_SIZE, value);
+}
+
+VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
+    if (descriptorPools_.empty() || setsInPool_ == kSetsPerPool) {
+        std::vector<VkDescriptorPoolSize> sizes;
+        for (const VkDescriptorType type :
+             {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+              VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
+              VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLER}) {
+            sizes.push_back({type, kSetsPerPool * 12});
+        }
+        if (device_.hasRayQuery()) sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, kSetsPerPool});
+        VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+        info.maxSets = kSetsPerPool;
+        info.poolSizeCount = std::uint32_t(sizes.size());
+        info.pPoolSizes = sizes.data();
+        VkDescriptorPool pool;
+        KX_VK(vkCreateDescriptorPool(device_.handle(), &info, nullptr, &pool));
+        descriptorPools_.push_back(pool);
+        setsInPool_ = 0;
+    }
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = descriptorPools_.back();
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &layout;
+    VkDescriptorSet set;
+    KX_VK(vkAllocateDescriptorSets(device_.handle(), &info, &set));
+    ++setsInPool_;
+    return set;
+}
+
+void Commands::submitOpen() {
+    closeBuffer();
+    if (!recorded_.empty()) device_.submitAndWait(recorded_);
+    recorded_.clear();
+}
+
+void Commands::collectTimers() {
+    if (timers_.empty()) return;
+    std::vector<std::uint64_t> ticks(queryCount_);
+    KX_VK(vkGetQueryPoolResults(device_.handle(), queries_, 0, queryCount_, ticks.size() * sizeof(ticks[0]),
+                                ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    const double msPerTick = double(device_.limits().timestampPeriod) * 1e-6;
+    for (const Timer& timer : timers_) {
+        times_->add(timer.name, double(ticks[timer.firstQuery + 1] - ticks[timer.firstQuery]) * msPerTick);
+    }
+    timers_.clear();
+}
+
+void Commands::submitAndWait() {
+    submitOpen();
+    if (queries_) collectTimers();
+}
+
+} // namespace kilolux::gpu
