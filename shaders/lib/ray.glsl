@@ -1,0 +1,65 @@
+// Rays and hits, and how a ray leaves a surface; in the subset that C++ compiles too.
+#ifndef KILOLUX_RAY_GLSL
+#define KILOLUX_RAY_GLSL
+
+// Points origin + t * dir for tMinM <= t < tMaxM. `dir` is unit length, so t is metres; tMinM >= 0.
+struct Ray {
+    vec3 origin; // metres, world minus anchor
+    float tMinM;
+    vec3 dir;
+    float tMaxM;
+};
+
+const uint HIT_NONE = 0xFFFFFFFFu;
+
+struct Hit {
+    float tM;
+    uint instance;     // HIT_NONE: the ray has met nothing
+    uint primitive;    // index of the triangle within the instance's mesh primitive
+    vec2 barycentrics; // weights of its second and third corner
+    bool backFace;     // the triangle's corners run clockwise seen from the ray's origin
+};
+
+KX_INLINE Hit noHit() {
+    Hit hit;
+    hit.tM = KX_INFINITY;
+    hit.instance = HIT_NONE;
+    hit.primitive = HIT_NONE;
+    hit.barycentrics = vec2(0.0, 0.0);
+    hit.backFace = false;
+    return hit;
+}
+
+KX_INLINE Ray makeRay(vec3 origin, vec3 dir, float tMaxM) {
+    Ray ray;
+    ray.origin = origin;
+    ray.tMinM = 0.0;
+    ray.dir = dir;
+    ray.tMaxM = tMaxM;
+    return ray;
+}
+
+// How far a surface point may be off its surface, metres, by rounding alone: of the corners and transforms (the
+// point's own magnitude) and of the camera ray or depth that gave it (`viewDistanceM`, the distance it was found
+// from). A dozen roundings of 2^-24 each; Pharr, Jakob and Humphreys, "Physically Based Rendering", section 3.9.
+KX_INLINE float positionErrorM(vec3 position, float viewDistanceM) {
+    vec3 size = abs(position);
+    return 7.5e-7 * (max(size.x, max(size.y, size.z)) + viewDistanceM);
+}
+
+// The same for a point whose depth was rasterized: corners are snapped to 1/256 of a pixel before depth is
+// interpolated, which shifts the surface by half of that at most. `pixelAngleRad`: 2 tan(fovY / 2) / height.
+KX_INLINE float rasterPositionErrorM(vec3 position, float viewDistanceM, float pixelAngleRad) {
+    return positionErrorM(position, viewDistanceM) + viewDistanceM * pixelAngleRad * (1.0 / 512.0);
+}
+
+// The origin of a ray that leaves a surface: moved off it along the geometric normal `ng`, to the side that
+// `dir` looks to, by the point's error. Errors of the tracer's own arithmetic are not part of it; the tracer
+// knows the sizes of its triangles and bounds them itself (originInPlane in trace_core.glsl).
+KX_INLINE vec3 offsetRayOrigin(vec3 position, vec3 ng, vec3 dir, float errorM) {
+    // |ng|_1 carries an error of errorM per axis over to the normal (Pharr et al., section 3.9.5).
+    float distanceM = errorM * (abs(ng.x) + abs(ng.y) + abs(ng.z));
+    return position + ng * (dot(ng, dir) < 0.0 ? -distanceM : distanceM);
+}
+
+#endif

@@ -1,0 +1,22 @@
+// The order of tiles in a dispatch. CPU drivers hand each of their threads one contiguous run of workgroups;
+// neighbouring tiles cost alike, so runs of a picture's top and bottom do not balance. Dealing tiles out in turn
+// does (5 to 20 % on lavapipe with two threads). In the subset that C++ compiles too.
+#ifndef KILOLUX_TILE_ORDER_GLSL
+#define KILOLUX_TILE_ORDER_GLSL
+
+// Tile of workgroup `group` of tileCount.x * tileCount.y, so that each of `chunks` (at least 1) runs of
+// workgroups gets every chunks-th tile. A bijection for any sizes; the identity for one chunk.
+KX_INLINE uvec2 interleavedTile(uint group, uvec2 tileCount, uint chunks) {
+    uint total = tileCount.x * tileCount.y;
+    uint size = total / chunks;
+    uint longer = total - size * chunks; // the first `longer` runs have one more
+    uint split = longer * (size + 1u);
+    bool inLonger = group < split;
+    uint runSize = inLonger ? size + 1u : max(size, 1u);
+    uint offset = inLonger ? group : group - split;
+    uint run = offset / runSize;
+    uint tile = (offset - run * runSize) * chunks + (inLonger ? run : run + longer);
+    return uvec2(tile % tileCount.x, tile / tileCount.x);
+}
+
+#endif
