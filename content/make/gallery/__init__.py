@@ -29,7 +29,7 @@ def place_exhibits(scene):
     plinth = exhibits.plinth(0.46, 1.0)
     for name, sculpture, (x, z), turn in (
             ("Orbit (plaster)", exhibits.sculpture_orbit(M.PLASTER_CAST), (-0.85, -1.55), 0.5),
-            ("Gate (brass)", exhibits.sculpture_gate(M.POLISHED_BRASS), (2.15, -0.15), -0.55),
+            ("Gate (brass)", exhibits.sculpture_gate(M.POLISHED_BRASS), (2.15, -0.15), 0.2),
             ("Stack (clay)", exhibits.sculpture_stack(M.CLAY), (-3.55, -0.75), 0.2)):
         base = scene.node("plinth of " + name, group, translate(x, 0, z) @ rotate_y(0.06 * turn), plinth)
         scene.node(name, base, translate(0, 1.0, 0) @ rotate_y(turn), sculpture)
@@ -40,7 +40,7 @@ def place_exhibits(scene):
     table = scene.node("side table", group, translate(-4.9, 0, 3.1), exhibits.side_table())
     for k, (x, y, z) in enumerate(((-0.16, 2.05, 0.05), (0.2, 2.38, -0.16), (0.12, 1.78, 0.24))):
         scene.node(f"globe {k + 1}", table, translate(x, y, z), L.globe_model(L.GLOBE, room.HEIGHT_M - y), L.GLOBE)
-    scene.node("fig", group, translate(5.3, 0, -3.35) @ rotate_y(0.8), fig("fig", M.LEAF, M.BARK, M.POT, M.SOIL, 1.9, 66))
+    scene.node("fig", group, translate(5.3, 0, -3.35) @ rotate_y(0.8), fig("fig", M.LEAF, M.BARK, M.POT, M.SOIL, 1.95, 96))
     scene.node("palm", group, translate(-5.35, 0, -0.1) @ rotate_y(2.0), palm("palm", M.PALM_LEAF, M.POT, M.SOIL, 1.75, 15))
     scene.node("corridor picture", group, translate(-4.95, 1.6, -7.899),
                exhibits.picture("corridor picture", "marble", 0.9, 0.9, M.BLACK_FRAME))
@@ -77,7 +77,7 @@ def build():
     lights = scene.node("lights")
     L.place_architectural(scene, lights)
     place_track_lights(scene, lights)
-    scene.camera("wide", look_at((5.0, 1.62, 3.35), (-1.6, 1.45, -2.9)), math.radians(43))
+    scene.camera("wide", look_at((5.0, 1.62, 3.35), (-1.6, 1.45, -2.9)), math.radians(45))
     scene.camera("close", look_at((3.55, 1.52, 1.25), (1.55, 1.18, -1.0)), math.radians(34))
     scene.camera("case", look_at((2.75, 1.5, -0.35), (4.05, 1.12, -1.85)), math.radians(38))
     scene.camera("screen", look_at((0.2, 1.5, 0.6), (-5.6, 1.35, -1.9)), math.radians(44))

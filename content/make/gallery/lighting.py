@@ -16,10 +16,13 @@ from . import materials as M
 
 VIDEO = paintings.waves()
 DEG = math.pi / 180
+# Gel on the track heads. The picture is balanced for 6500 K; this takes the lamps half-way to what an eye that has
+# settled into the room sees.
+GEL = (0.78, 0.92, 1.0)
 
 
 def spot_light(name, lumen, outer_deg, kelvin=3000.0, inner=0.55, radius=0.035):
-    return Light(name, "spot", lumen, "lumen", temperature_k=kelvin, range_m=12.0, radius_m=radius,
+    return Light(name, "spot", lumen, "lumen", color=GEL, temperature_k=kelvin, range_m=12.0, radius_m=radius,
                  inner_rad=outer_deg * inner * DEG, outer_rad=outer_deg * DEG, ray_end_bias_m=0.06)
 
 
@@ -28,18 +31,18 @@ PICTURE = spot_light("picture spot", 1000.0, 27)
 ACCENT = spot_light("accent spot", 900.0, 17, 2800.0)
 SOFT_ACCENT = spot_light("plant spot", 700.0, 24, 3000.0)
 WASHER = spot_light("wall washer", 1500.0, 52, 3500.0, 0.3, 0.05)
-SKYLIGHT = Light("skylight", "rect", 62.0, "nit", temperature_k=6500.0, width_m=room.SKYLIGHT_M[0],
+SKYLIGHT = Light("skylight", "rect", 115.0, "nit", temperature_k=6500.0, width_m=room.SKYLIGHT_M[0],
                  height_m=room.SKYLIGHT_M[1], range_m=16.0, ray_end_bias_m=0.02)
-FRAMER = Light("framing projector", "rect", 900.0, "lumen", temperature_k=3000.0, width_m=0.12, height_m=0.12,
+FRAMER = Light("framing projector", "rect", 900.0, "lumen", color=GEL, temperature_k=3000.0, width_m=0.12, height_m=0.12,
                range_m=10.0, door_angle_rad=38 * DEG, door_length_m=0.12, ray_end_bias_m=0.05)
-COVE = Light("cove tube", "tube", 1100.0, "lumen", temperature_k=3000.0, radius_m=0.013, length_m=1.42, range_m=8.0,
+COVE = Light("cove tube", "tube", 1100.0, "lumen", color=GEL, temperature_k=3000.0, radius_m=0.013, length_m=1.42, range_m=8.0,
              ray_end_bias_m=0.03)
 CASE = Light("case tube", "tube", 260.0, "lumen", temperature_k=3500.0, radius_m=0.006, length_m=0.8, range_m=3.0,
              ray_end_bias_m=0.015)
 DOWNLIGHT = Light("downlight", "disk", 420.0, "lumen", temperature_k=2900.0, width_m=0.16, range_m=9.0,
                   ray_end_bias_m=0.03)
 GLOBE = Light("globe", "sphere", 380.0, "lumen", temperature_k=2700.0, radius_m=0.11, range_m=9.0, ray_end_bias_m=0.03)
-DUSK = Light("dusk", "directional", 34.0, "lux", temperature_k=11000.0, angular_diameter_rad=0.05)
+DUSK = Light("dusk", "directional", 80.0, "lux", temperature_k=11000.0, angular_diameter_rad=0.05)
 
 
 def screen_light():
@@ -61,7 +64,7 @@ def spot_head(light, radius):
     body = lathe([(0, 0.165), (r * 0.7, 0.163), (r, 0.15), (r, -0.018), (r - 0.003, -0.02), (r - 0.006, -0.018),
                   (r - 0.006, 0.002)][::-1], 28, 40)
     model.add(M.BLACK_METAL, body, turn)
-    model.add(glow(light.name + " lens", light), lathe([(0, -0.001), (r - 0.006, -0.001)][::-1], 24), turn)
+    model.add(glow(light.name + " lens", light), lathe([(0, -0.001), (r - 0.006, -0.001)], 24), turn)
     for k in range(4):  # cooling fins
         model.add(M.BLACK_METAL, cylinder(r + 0.006, 0.004, 24, 0.001), turn @ translate(0, 0.105 + 0.012 * k, 0))
     return model
@@ -119,14 +122,12 @@ def tube_model(light):
 
 
 def downlight_model(light):
-    """Trim ring flush with a ceiling above; the face at y = 0 looks down."""
+    """Trim ring flush with a ceiling above; the face looks down."""
     model = Model("downlight")
     r = light.width_m / 2
-    model.add(M.STEEL, lathe([(r + 0.015, 0.02), (r + 0.016, 0.0), (r + 0.012, -0.004), (r, -0.002), (r, 0.01)][::-1],
-                             32, 40).flipped())
-    face = quad(2 * r, 2 * r)
-    model.add(glow("downlight face", light), lathe([(r, 0.004), (0, 0.004)], 32).flipped()
-              if face is None else lathe([(0, 0.004), (r, 0.004)], 32))
+    ring = [(r, 0.01), (r, -0.002), (r + 0.012, -0.004), (r + 0.016, 0.0), (r + 0.016, 0.02)]
+    model.add(M.STEEL, lathe(ring, 32, 40))
+    model.add(glow("downlight face", light), lathe([(0, 0.004), (r, 0.004)], 32))
     return model
 
 
