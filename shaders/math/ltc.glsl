@@ -1,9 +1,9 @@
 // GGX as a linearly transformed cosine (Heitz, Dupuy, Hill and Neubelt, "Real-Time Polygonal-Light Shading with
 // Linearly Transformed Cosines", 2016). The matrix is stored relative to the mirror direction and to alpha, so
 // that its entries vary slowly even for smooth surfaces:
-//   worldFromLtc = [tangent, bitangent, normal] * turn(mirror + tilt) * [a x, 0, a s; 0, a y, 0; 0, 0, 1]
-// with a = alpha. content/make/ltc_fit fits x, y, s, tilt per (noV, roughness); the includer provides
-// ltcLookup0(uv) = (x, y, s / sin(viewAngle), tilt / (alpha sin(viewAngle))) and
+//   worldFromLtc = [tangent, bitangent, normal] * turn(mirror + a t) * [a x, 0, 0; 0, a y, 0; a s, 0, 1]
+// with a = alpha. content/make/ltc_fit fits x, y, s, t per (noV, roughness); the includer provides
+// ltcLookup0(uv) = (x, y, s / sin(viewAngle), t / sin(viewAngle)) and
 // ltcLookup1(uv) = (amplitude, Fresnel offset, albedo for F0, albedo for F90), both linearly filtered.
 #ifndef KILOLUX_MATH_LTC_GLSL
 #define KILOLUX_MATH_LTC_GLSL
@@ -42,8 +42,8 @@ KX_INLINE LtcLobe ltcLobeFromParameters(mat3 worldFromSurface, float noV, float 
     float y = alpha * parameters.y;
     float skew = alpha * parameters.z * sinView;
     LtcLobe lobe;
-    lobe.worldFromLtc = worldFromLobe * mat3(vec3(x, 0.0, 0.0), vec3(0.0, y, 0.0), vec3(skew, 0.0, 1.0));
-    lobe.ltcFromWorld = mat3(vec3(1.0 / x, 0.0, 0.0), vec3(0.0, 1.0 / y, 0.0), vec3(-skew / x, 0.0, 1.0)) *
+    lobe.worldFromLtc = worldFromLobe * mat3(vec3(x, 0.0, skew), vec3(0.0, y, 0.0), vec3(0.0, 0.0, 1.0));
+    lobe.ltcFromWorld = mat3(vec3(1.0 / x, 0.0, -skew / x), vec3(0.0, 1.0 / y, 0.0), vec3(0.0, 0.0, 1.0)) *
                         transpose(worldFromLobe);
     lobe.density = KX_INV_PI / (x * y);
     lobe.amplitude = 1.0;
