@@ -269,6 +269,7 @@ void LightImporter::applyExtras(const Fields& extras, LightDef& def) {
     extras.number("barnDoorAngleRad", 0.0, kPi / 2.0, def.barnDoorAngleRad);
     extras.number("barnDoorLengthM", 0.0, kHuge, def.barnDoorLengthM);
     extras.number("rayEndBiasM", 0.0, kHuge, def.rayEndBiasM);
+    if (double rangeM = 0.0; extras.number("rangeM", 1e-6, kHuge, rangeM)) def.rangeM = rangeM;
     if (def.type == LightType::Tube) def.radiusM = std::max(def.radiusM, kMinTubeRadiusM);
     // A type for which the extension's unit means nothing takes over the base value (candela or lux).
     applyIntensity(extras, before, def);

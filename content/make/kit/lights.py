@@ -1,6 +1,6 @@
 """Lights as the tool's document knows them, and how each is written to glTF: KHR_lights_punctual for points,
 spots and suns, EXT_lights_area for rectangles and disks, and node extras under `kilolux` for what those
-extensions lack (and for tubes, which they lack altogether). Units and the emitters' radiances follow the
+extensions lack. Tubes, which no extension has, are points to other readers. Units and the emitters' radiances follow the
 renderer's light model: Lambert sources of constant radiance, lumens of a spot are what leaves its cone."""
 import math
 from dataclasses import dataclass
@@ -75,14 +75,13 @@ class Light:
         """The `kilolux` object of the node's extras."""
         out = {}
         if self.type == "tube":
-            out.update(type="tube", lengthM=self.length_m, color=list(self.color))
-        if self.type in ("rect", "disk"):
-            out["type"] = self.type
+            out.update(type="tube", lengthM=self.length_m)
         if self.type in ("tube", "sphere", "spot") and self.radius_m > 0:
             out["radiusM"] = self.radius_m
-        if self.type in ("tube", "rect", "disk") and self.range_m is not None:
+        if self.type in ("rect", "disk") and self.range_m is not None:
             out["rangeM"] = self.range_m
-        out.update(intensity=self.intensity, unit=self.unit)
+        out.update(intensity=self.intensity,
+                   unit={"lumen": "lm", "candela": "cd"}.get(self.unit, self.unit))
         optional = {"temperatureK": self.temperature_k, "barnDoorAngleRad": self.door_angle_rad,
                     "barnDoorLengthM": self.door_length_m,
                     "angularDiameterRad": self.angular_diameter_rad or None,
@@ -92,9 +91,9 @@ class Light:
 
     def punctual(self):
         """KHR_lights_punctual definition, or None."""
-        if self.type not in ("sphere", "spot", "directional"):
+        if self.type in ("rect", "disk"):
             return None
-        out = {"name": self.name, "type": {"sphere": "point"}.get(self.type, self.type),
+        out = {"name": self.name, "type": {"sphere": "point", "tube": "point"}.get(self.type, self.type),
                "color": [round(c, 6) for c in self.color], "intensity": round(self.candela(), 4)}
         if self.range_m is not None and self.type != "directional":
             out["range"] = self.range_m
