@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <fmt/format.h>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -45,8 +46,9 @@ struct Buffer {
 struct ImportContext {
     std::filesystem::path path;
     ImportOptions options;
-    Json json;                   // the checked document; long data URIs are dropped once decoded
-    std::vector<Buffer> buffers; // as /buffers
+    Json json;                         // the checked document; long data URIs are dropped once decoded
+    std::vector<Buffer> buffers;       // as /buffers
+    std::map<int, Bytes> decodedViews; // bufferViews that were compressed
     std::span<const std::uint8_t> binaryChunk; // of a .glb
     std::uint64_t fileBytes = 0;               // of all files read so far
     std::uint64_t geometryBytes = 0;           // decoded so far
@@ -102,6 +104,9 @@ Bytes decodeDataUri(std::string_view uri, std::string_view place);
 bool isDataUri(std::string_view uri);
 
 void loadBuffers(ImportContext& context);
+
+// Fills decodedViews (gltf_meshopt.cpp).
+void decodeCompressedViews(ImportContext& context);
 
 // The bytes of a buffer view, checked against its buffer.
 std::span<const std::uint8_t> bufferViewBytes(const ImportContext& context, int bufferView,

@@ -108,7 +108,7 @@ void ImportContext::addWarning(std::string text) {
 }
 
 void ImportContext::chargeGeometry(std::uint64_t bytes, std::string_view place) {
-    constexpr std::uint64_t kFreeBytes = 64ull << 20;
+    constexpr std::uint64_t kFreeBytes = 32ull << 20;
     constexpr std::uint64_t kTimesFile = 9;
     const std::uint64_t limit = kFreeBytes + kTimesFile * fileBytes;
     geometryBytes += bytes;
@@ -139,6 +139,7 @@ Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes, std::s
 
 void parseDocument(ImportContext& context, std::span<const std::uint8_t> file) {
     const bool binary = file.size() >= 4 && readU32(file, 0) == kGlbMagic;
+    if (!binary && context.path.extension() == ".glb") fail("header", "expected the four letters 'glTF'");
     const std::string_view text =
         binary ? splitGlb(context, file)
                : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());

@@ -12,7 +12,7 @@ namespace kilolux::gltf {
 
 namespace {
 
-constexpr std::uint64_t kFreeImageBytes = 64ull << 20;
+constexpr std::uint64_t kFreeImageBytes = 48ull << 20;
 constexpr std::uint64_t kImageTimesFile = 8;
 constexpr int kDecodeThreads = 2;
 

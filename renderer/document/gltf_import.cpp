@@ -14,6 +14,7 @@ Scene importScene(gltf::ImportContext& context) {
     checkExtensions(context);
     checkSchema(context);
     loadBuffers(context);
+    decodeCompressedViews(context);
     {
         const tinygltf::Model model = parseModel(context);
         importMaterials(context, model);
@@ -21,6 +22,8 @@ Scene importScene(gltf::ImportContext& context) {
         importMeshes(context, model);
     }
     importLights(context);
+    if (triangleCount(context.scene) == 0)
+        context.warn("/nodes", "no visible node has a mesh with triangles");
     if (context.droppedWarnings > 0) {
         context.scene.warnings.push_back(fmt::format("and {} more warnings", context.droppedWarnings));
     }

@@ -141,6 +141,8 @@ void loadBuffers(ImportContext& context) {
 
 std::span<const std::uint8_t> bufferViewBytes(const ImportContext& context, int bufferView,
                                               std::string_view place) {
+    if (const auto it = context.decodedViews.find(bufferView); it != context.decodedViews.end())
+        return it->second;
     const Json& view = context.json["bufferViews"][bufferView];
     const auto& buffer = context.buffers[view["buffer"].get<std::size_t>()];
     const auto offset = view.value("byteOffset", std::uint64_t{0});

@@ -222,6 +222,7 @@ std::string Checker::complaint(const Rule& rule, Json& value) const {
         if (value.is_number_integer() && value.get<double>() >= rule.min && value.get<double>() <= rule.max) {
             return {};
         }
+        if (rule.max >= kMaxInt) return fmt::format("an integer of at least {}, found {}", rule.min, found());
         return fmt::format("an integer from {} to {}, found {}", rule.min, rule.max, found());
     case Kind::Index: {
         const std::size_t size = arraySize(rule.target);
@@ -296,7 +297,10 @@ void Checker::checkAccessor(Json& accessor, const std::string& pointer) {
     static const std::set<std::string> kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
     const std::string type = accessor["type"];
     if (!kTypes.contains(type)) {
-        fail(pointer + "/type", "expected SCALAR, VEC2 to VEC4 or MAT2 to MAT4, found '{}'", printable(type));
+        // Unknown to this version of glTF and perhaps unused; as a matrix it is refused wherever it is used.
+        context_.warn(pointer + "/type", "expected SCALAR, VEC2 to VEC4 or MAT2 to MAT4, found '{}'",
+                      printable(type));
+        accessor["type"] = "MAT4";
     }
     // Bounds are derived from the data instead of believed.
     accessor.erase("min");
@@ -423,7 +427,10 @@ void Checker::checkRoot() {
         };
     };
     forEach("buffers", Fault::Essential, rulesFor(kBufferRules, Fault::Essential));
-    forEach("bufferViews", Fault::Essential, rulesFor(kBufferViewRules, Fault::Essential));
+    forEach("bufferViews", Fault::Essential, [this](Json& object, const std::string& pointer) {
+        checkObject(object, pointer, kBufferViewRules, Fault::Essential);
+        if (object.value("byteStride", 4) % 4 != 0) fail(pointer + "/byteStride", "expected a multiple of 4");
+    });
     forEach("accessors", Fault::Essential, [this](Json& o, const std::string& p) { checkAccessor(o, p); });
     forEach("meshes", Fault::Essential, [this](Json& o, const std::string& p) { checkMesh(o, p); });
     forEach("nodes", Fault::Essential, [this](Json& object, const std::string& pointer) {

@@ -10,6 +10,9 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
+#include <memory>
+#include <numeric>
+#include <optional>
 
 namespace kilolux {
 
@@ -17,6 +20,10 @@ namespace {
 
 constexpr int kChannels = 4;
 constexpr float kLargestHalf = 65504.0f;
+constexpr const char* kMemoryName = "image.memory"; // what the readers think the file is called
+constexpr int kMaxFileChannels = 64;
+constexpr std::uint64_t kMaxTileRows = 4096;
+constexpr std::uint64_t kMaxBandBytes = 32ull << 20;
 
 struct Format {
     const char* reader; // OpenImageIO's name
@@ -32,9 +39,6 @@ std::optional<Format> recognize(std::span<const std::uint8_t> file) {
     if (startsWith(file, "\xFF\xD8\xFF")) return Format{"jpeg", false};
     if (startsWith(file, "\x76\x2f\x31\x01")) return Format{"openexr", true};
     if (startsWith(file, "#?RADIANCE") || startsWith(file, "#?RGBE")) return Format{"hdr", true};
-    if (startsWith(file, "RIFF") && file.size() >= 12 && std::memcmp(file.data() + 8, "WEBP", 4) == 0) {
-        return Format{"webp", false};
-    }
     return std::nullopt;
 }
 
@@ -83,13 +87,17 @@ void shrinkRows(const T* source, int width, int rows, int factor, T* target) {
     }
 }
 
+std::uint64_t defaultLimit(std::span<const std::uint8_t> file) {
+    return (64ull << 20) + 8 * file.size();
+}
+
 struct Reader {
     std::string name;
     std::unique_ptr<OIIO::Filesystem::IOMemReader> memory; // outlives `input`
     std::unique_ptr<OIIO::ImageInput> input;
     OIIO::ImageSpec spec;
     bool isHdr = false;
-    int channels = 0; // of the file, at most 4
+    int channels = 0; // read from the file, at most 4
     int factor = 1;   // by which the picture is reduced
 };
 
@@ -103,48 +111,82 @@ Error complain(const std::string& name, const std::string& text) {
 
 std::string readerError(OIIO::ImageInput* input) {
     std::string error = input ? input->geterror() : OIIO::geterror();
+    // The libraries' own preambles name a file that does not exist.
+    for (const std::string_view preamble : {"OpenEXR exception: ", "Failed OpenEXR read: "}) {
+        if (error.starts_with(preamble)) error.erase(0, preamble.size());
+    }
+    if (const auto at = error.find(kMemoryName); at != error.npos) {
+        if (const auto end = error.find(". ", at); end != error.npos) error.erase(0, end + 2);
+    }
     while (!error.empty() && (error.back() == '\n' || error.back() == '.'))
         error.pop_back();
+    // They also quote names from the file, in whatever encoding.
+    std::replace_if(
+        error.begin(), error.end(), [](unsigned char c) { return c >= 0x80; }, '?');
     return error.empty() ? "the file ends early or is damaged" : error;
 }
 
-template<typename T, typename Sum>
-bool readBands(Reader& reader, T opaque, std::vector<T>& pixels) {
-    const OIIO::ImageSpec& spec = reader.spec;
-    const int factor = reader.factor;
-    const int width = (spec.width + factor - 1) / factor, height = (spec.height + factor - 1) / factor;
-    // Tiled files are read by whole rows of tiles; others by bands of about a megabyte.
-    const std::size_t rowBytes = static_cast<std::size_t>(spec.width) * reader.channels * sizeof(T);
-    int bandRows =
-        std::max<int>(1, static_cast<int>((std::size_t{1} << 20) / std::max<std::size_t>(rowBytes, 1)));
-    if (spec.tile_height > 0) bandRows = spec.tile_height;
-    bandRows =
-        std::min((bandRows + factor - 1) / factor * factor, (spec.height + factor - 1) / factor * factor);
-    pixels.assign(static_cast<std::size_t>(width) * height * kChannels, T{});
-    std::vector<T> band(static_cast<std::size_t>(bandRows) * spec.width * reader.channels);
-    std::vector<T> rgba(static_cast<std::size_t>(bandRows) * spec.width * kChannels);
-    for (int y = 0; y < spec.height; y += bandRows) {
-        const int rows = std::min(bandRows, spec.height - y);
-        const bool good =
-            reader.input->read_scanlines(0, 0, spec.y + y, spec.y + y + rows, spec.z, 0, reader.channels,
-                                         OIIO::BaseTypeFromC<T>::value, band.data());
-        if (!good) return false;
-        spreadToRgba(band.data(), spec.width * rows, reader.channels, opaque, rgba.data());
-        for (int row = 0; row < rows; row += factor) {
-            T* target = pixels.data() + static_cast<std::size_t>((y + row) / factor) * width * kChannels;
-            shrinkRows<T, Sum>(rgba.data() + static_cast<std::size_t>(row) * spec.width * kChannels,
-                               spec.width, std::min(factor, rows - row), factor, target);
-        }
+// What a decoder would hold of the whole picture while it opens it: the coefficients of a progressive JPEG,
+// the pixels of an interlaced PNG; 0 for files that are decoded row by row. A small file can claim gigabytes
+// here.
+std::uint64_t bufferedBytes(std::span<const std::uint8_t> file) {
+    const auto u16 = [&](std::size_t at) { return static_cast<std::uint64_t>(file[at]) << 8 | file[at + 1]; };
+    if (startsWith(file, "\x89PNG") && file.size() > 28 && file[28] != 0) {
+        return (u16(16) << 16 | u16(18)) * (u16(20) << 16 | u16(22)) * 8;
     }
-    return true;
+    if (!startsWith(file, "\xFF\xD8")) return 0;
+    for (std::size_t at = 2; at + 9 < file.size();) { // ITU-T T.81, annex B: segments up to the frame header
+        const std::uint8_t marker = file[at + 1];
+        if (file[at] != 0xFF || marker == 0xFF) {
+            ++at;
+            continue;
+        }
+        const bool isFrame =
+            marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+        const bool isSequential = marker <= 0xC1;
+        if (isFrame) return isSequential ? 0 : u16(at + 5) * u16(at + 7) * file[at + 9] * 2;
+        at += 2 + u16(at + 2);
+    }
+    return 0;
+}
+
+std::optional<Error> checkSpec(const Reader& reader, const ImageImportOptions& options) {
+    const OIIO::ImageSpec& spec = reader.spec;
+    if (spec.deep || spec.depth > 1)
+        return complain(reader.name, "expected a flat picture, found deep or volume data");
+    if (spec.width < 1 || spec.height < 1 || spec.width > options.maxSizePx ||
+        spec.height > options.maxSizePx) {
+        return complain(reader.name, fmt::format("expected 1 to {} pixels a side, found {} x {}",
+                                                 options.maxSizePx, spec.width, spec.height));
+    }
+    if (spec.nchannels < 1 || spec.nchannels > kMaxFileChannels) {
+        return complain(reader.name,
+                        fmt::format("expected 1 to {} channels, found {}", kMaxFileChannels, spec.nchannels));
+    }
+    const bool goodTiles = (spec.tile_width == 0) == (spec.tile_height == 0) && spec.tile_depth <= 1;
+    const std::uint64_t rows = std::max(spec.tile_height, 1);
+    const std::uint64_t columns = std::max(spec.width, spec.tile_width);
+    if (!goodTiles || rows > kMaxTileRows || rows * columns * spec.pixel_bytes(true) > kMaxBandBytes) {
+        return complain(reader.name,
+                        fmt::format("expected rows of tiles of at most {} MiB, found tiles of {} x {}",
+                                    kMaxBandBytes >> 20, spec.tile_width, spec.tile_height));
+    }
+    return std::nullopt;
 }
 
 // Opens the file and checks its header; nothing of the picture is decoded yet.
 std::optional<Error> openReader(std::span<const std::uint8_t> file, const ImageImportOptions& options,
                                 Reader& reader) {
     const auto format = recognize(file);
-    if (!format) return complain(reader.name, "expected a PNG, JPEG, OpenEXR, Radiance HDR or WebP image");
+    if (!format) return complain(reader.name, "expected a PNG, JPEG, OpenEXR or Radiance HDR image");
     reader.isHdr = format->isHdr;
+    const std::uint64_t buffered = bufferedBytes(file), bufferedLimit = defaultLimit(file);
+    if (buffered > bufferedLimit) {
+        return complain(reader.name,
+                        fmt::format("expected an interlaced or progressive image of at most {} MiB, found "
+                                    "{} MiB",
+                                    bufferedLimit >> 20, buffered >> 20));
+    }
     reader.memory =
         std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(file.data()), file.size());
     reader.input = OIIO::ImageInput::create(format->reader, false, nullptr, reader.memory.get());
@@ -153,21 +195,52 @@ std::optional<Error> openReader(std::span<const std::uint8_t> file, const ImageI
     config.attribute("oiio:UnassociatedAlpha", 1);
     void* proxy = reader.memory.get();
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    if (!reader.input->open(std::string("memory.") + format->reader, reader.spec, config)) {
+    if (!reader.input->open(kMemoryName, reader.spec, config)) {
         return complain(reader.name, "expected a readable image: " + readerError(reader.input.get()));
     }
+    reader.channels = std::min(reader.spec.nchannels, kChannels);
+    return checkSpec(reader, options);
+}
+
+// Tiled files are read by whole rows of tiles (read_scanlines divides by zero on them), others by bands of
+// rows.
+template<typename T>
+bool readBand(Reader& reader, int y, int rows, T* target) {
     const OIIO::ImageSpec& spec = reader.spec;
-    if (spec.deep || spec.depth > 1) {
-        return complain(reader.name, "expected a flat picture, found deep or volume data");
+    const int y0 = spec.y + y;
+    const auto type = OIIO::BaseTypeFromC<T>::value;
+    if (spec.tile_width == 0) {
+        return reader.input->read_scanlines(0, 0, y0, y0 + rows, spec.z, 0, reader.channels, type, target);
     }
-    if (spec.width < 1 || spec.height < 1 || spec.width > options.maxSizePx ||
-        spec.height > options.maxSizePx) {
-        return complain(reader.name, fmt::format("expected 1 to {} pixels a side, found {} x {}",
-                                                 options.maxSizePx, spec.width, spec.height));
+    return reader.input->read_tiles(0, 0, spec.x, spec.x + spec.width, y0, y0 + rows, spec.z, spec.z + 1, 0,
+                                    reader.channels, type, target);
+}
+
+template<typename T, typename Sum>
+bool readPicture(Reader& reader, T opaque, std::vector<T>& pixels) {
+    const OIIO::ImageSpec& spec = reader.spec;
+    const int factor = reader.factor;
+    const int width = (spec.width + factor - 1) / factor, height = (spec.height + factor - 1) / factor;
+    const std::size_t rowBytes = static_cast<std::size_t>(spec.width) * reader.channels * sizeof(T);
+    int bandRows = std::max(1, static_cast<int>((std::size_t{1} << 20) / rowBytes));
+    if (spec.tile_height > 0) bandRows = spec.tile_height;
+    // Whole tiles and whole groups of rows that become one.
+    bandRows = std::lcm(std::min(bandRows, std::max(spec.height, spec.tile_height)), factor);
+    pixels.assign(static_cast<std::size_t>(width) * height * kChannels, T{});
+    const int heldRows = std::min(bandRows, spec.height);
+    std::vector<T> band(static_cast<std::size_t>(heldRows) * spec.width * reader.channels);
+    std::vector<T> rgba(static_cast<std::size_t>(heldRows) * spec.width * kChannels);
+    for (int y = 0; y < spec.height; y += bandRows) {
+        const int rows = std::min(bandRows, spec.height - y);
+        if (!readBand(reader, y, rows, band.data())) return false;
+        spreadToRgba(band.data(), spec.width * rows, reader.channels, opaque, rgba.data());
+        for (int row = 0; row < rows; row += factor) {
+            T* target = pixels.data() + static_cast<std::size_t>((y + row) / factor) * width * kChannels;
+            shrinkRows<T, Sum>(rgba.data() + static_cast<std::size_t>(row) * spec.width * kChannels,
+                               spec.width, std::min(factor, rows - row), factor, target);
+        }
     }
-    if (spec.nchannels < 1) return complain(reader.name, "expected at least one channel");
-    reader.channels = std::min(spec.nchannels, kChannels);
-    return std::nullopt;
+    return true;
 }
 
 std::uint64_t decodedBytes(const Reader& reader, int factor) {
@@ -197,15 +270,16 @@ Result<Image> importImage(std::span<const std::uint8_t> file, const std::string&
     try {
         if (auto error = openReader(file, options, reader)) return *error;
         const std::uint64_t limit =
-            options.maxDecodedBytes > 0 ? options.maxDecodedBytes : (64ull << 20) + 8 * file.size();
+            options.maxDecodedBytes > 0 ? options.maxDecodedBytes : defaultLimit(file);
         while (decodedBytes(reader, reader.factor) > limit && reader.factor < options.maxSizePx)
             reader.factor *= 2;
         Image image;
         image.name = name;
         image.width = (reader.spec.width + reader.factor - 1) / reader.factor;
         image.height = (reader.spec.height + reader.factor - 1) / reader.factor;
-        const bool good = reader.isHdr ? readBands<float, float>(reader, 1.0f, image.rgbaF32)
-                                       : readBands<std::uint8_t, int>(reader, std::uint8_t{255}, image.rgba8);
+        const bool good = reader.isHdr
+                              ? readPicture<float, float>(reader, 1.0f, image.rgbaF32)
+                              : readPicture<std::uint8_t, int>(reader, std::uint8_t{255}, image.rgba8);
         if (!good) return complain(name, "expected undamaged pixels: " + readerError(reader.input.get()));
         return image;
     } catch (const std::exception& e) {

@@ -1,4 +1,4 @@
-// Opens image files (PNG, JPEG, OpenEXR, Radiance HDR, WebP) through OpenImageIO as 8-bit or float RGBA.
+// Opens image files (PNG, JPEG, OpenEXR, Radiance HDR) through OpenImageIO as 8-bit or float RGBA.
 #pragma once
 
 #include "renderer/document/result.h"
@@ -19,7 +19,7 @@ struct ImageImportOptions {
 };
 
 // The picture with the file's own encoding of values (no colour conversion, alpha not multiplied in): rgba8
-// for PNG, JPEG and WebP, rgbaF32 for OpenEXR and HDR, where NaN becomes 0 and infinities the largest half
+// for PNG and JPEG, rgbaF32 for OpenEXR and HDR, where NaN becomes 0 and infinities the largest half
 // float. One channel is grey, two are grey and alpha. An error is one line that starts with the image's name.
 Result<Image> importImage(const std::filesystem::path& path, const ImageImportOptions& options = {});
 Result<Image> importImage(std::span<const std::uint8_t> file, const std::string& name,
