@@ -3,7 +3,9 @@
 
 #include "renderer/nearest_name.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -71,6 +73,15 @@ nlohmann::ordered_json settingRowsJson() {
     return list;
 }
 
+// An unknown name is answered with the nearest one, and all of them beside it.
+std::optional<Error> checkName(std::string_view kind, std::string_view name,
+                               std::span<const std::string_view> names) {
+    if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) return std::nullopt;
+    const std::string_view nearest = nearestName(name, names);
+    const std::string meant = nearest.empty() ? std::string() : fmt::format("did you mean '{}'? ", nearest);
+    return Error{fmt::format("unknown {} '{}'; {}{}", kind, name, meant, namesHint(names))};
+}
+
 } // namespace
 
 std::string listChoices(ListFormat format) {
@@ -87,24 +98,19 @@ std::string listChoices(ListFormat format) {
 std::optional<Error> checkChoice(std::string_view kind, std::string_view name,
                                  std::span<const NamedChoice> choices) {
     std::vector<std::string_view> names;
-    for (const NamedChoice& choice : choices) {
-        if (name.empty() || choice.name == name) return std::nullopt;
+    for (const NamedChoice& choice : choices)
         names.push_back(choice.name);
-    }
-    return Error{fmt::format("unknown {} '{}'; {}", kind, name, nearestNameHint(name, names))};
+    return checkName(kind, name, names);
 }
 
 std::optional<Error> checkCamera(std::string_view name, const Scene& scene) {
-    if (name.empty()) return std::nullopt;
-    if (scene.cameras.empty())
+    if (!name.empty() && scene.cameras.empty())
         return Error{fmt::format(
             "unknown camera '{}'; the scene has none, leave --camera out for one that shows all", name)};
     std::vector<std::string_view> names;
-    for (const Camera& camera : scene.cameras) {
-        if (camera.name == name) return std::nullopt;
+    for (const Camera& camera : scene.cameras)
         names.push_back(camera.name);
-    }
-    return Error{fmt::format("unknown camera '{}'; {}", name, nearestNameHint(name, names))};
+    return checkName("camera", name, names);
 }
 
 Result<PictureSize> parsePictureSize(std::string_view text) {

@@ -4,9 +4,9 @@
 
 #include "renderer/document/gltf_import.h"
 
-#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -40,6 +40,18 @@ Problem as(ExitCode code, const std::optional<Error>& error) {
     return error ? Problem{{code, error->message}} : std::nullopt;
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
+    std::error_code missing;
+    const auto whole = [&](const std::string& file) {
+        return fs::weakly_canonical(fs::absolute(file), missing);
+    };
+    return !a.empty() && !b.empty() && whole(a) == whole(b);
+}
+
 // Fills options and the default output name from the text of the arguments, and refuses what cannot work.
 Problem checkArguments(Arguments& arguments) {
     if (arguments.scene.empty())
@@ -62,6 +74,10 @@ Problem checkArguments(Arguments& arguments) {
     if (!format) return Failure{ExitCode::BadInput, format.error()};
     if (arguments.half && format.value() != PictureFormat::Exr)
         return Failure{ExitCode::BadInput, "--half is for .exr only"};
+    if (sameFile(arguments.statistics, arguments.scene) || sameFile(arguments.statistics, arguments.output))
+        return Failure{
+            ExitCode::BadInput,
+            fmt::format("--stats '{}' would overwrite the scene or the picture", arguments.statistics)};
     options.keepTargets = !arguments.dumpFolder.empty();
     return std::nullopt;
 }
@@ -95,14 +111,14 @@ std::optional<Error> writeTargets(Renderer& renderer, const fs::path& folder) {
     for (const NamedImage& target : targets.value())
         if (auto error = writeExr(folder / (target.name + ".exr"), target.image, ExrDepth::Float))
             return error;
-    fmt::print("wrote {} targets to '{}'\n", targets.value().size(), folder.string());
+    fmt::print("wrote {} to '{}'\n", counted(targets.value().size(), "target"), folder.string());
     return std::nullopt;
 }
 
 void printVerbose(const FrameStatistics& s) {
     fmt::print(stderr, "device      {} ({}), timing by {}\n", s.device, s.driver, s.timing);
-    fmt::print(stderr, "scene       {} lights ({:.1f} in range of a pixel), {} triangles\n", s.lights,
-               s.lightsInRangeMean, s.triangles);
+    fmt::print(stderr, "scene       {} ({:.1f} in range of a pixel), {}\n", counted(s.lights, "light"),
+               s.lightsInRangeMean, counted(s.triangles, "triangle"));
     fmt::print(stderr, "frame       {:.2f} ms, direct lighting {:.2f} ms, {} rays in all\n", s.frameMs,
                s.directLightingMs, s.rays);
     for (const PassTiming& pass : s.passes)
@@ -126,8 +142,8 @@ Problem renderToFiles(const Arguments& arguments, const Scene& scene) {
 
     if (Problem p = as(ExitCode::CouldNotWork, writePicture(arguments, picture.value()))) return p;
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    fmt::print("wrote '{}' ({} x {}, {} {}, {:.1f} s)\n", arguments.output, options.width, options.height,
-               options.frames, options.frames == 1 ? "frame" : "frames", seconds.count());
+    fmt::print("wrote '{}' ({} x {}, {}, {:.1f} s)\n", arguments.output, options.width, options.height,
+               counted(options.frames, "frame"), seconds.count());
 
     const FrameStatistics statistics = renderer.value()->statistics();
     if (arguments.verbose) printVerbose(statistics);
@@ -166,23 +182,30 @@ Command addRenderCommand(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     Arguments& a = *arguments;
     CLI::App* render = app.add_subcommand("render", "Render a scene to a picture file");
-    render->add_option("SCENE", a.scene, "a .gltf or .glb file");
-    render->add_option("-o,--output", a.output,
-                       "picture to write: .png, .exr or .hdr (default: SCENE's name .png)");
-    render->add_option("--size", a.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
+    render->add_option("SCENE", a.scene, "a .gltf or .glb file")->type_name("");
+    render
+        ->add_option("-o,--output", a.output,
+                     "picture to write: .png, .exr or .hdr (default: SCENE's name .png)")
+        ->type_name("FILE");
+    render->add_option("--size", a.size, "in pixels")->type_name("WxH")->capture_default_str();
     render->add_option("--frames", a.options.frames, "frames to accumulate")
-        ->check(CLI::Range(1, 1000000))
+        ->check(CLI::Range(1, 1000000).description(""))
+        ->type_name("N")
         ->capture_default_str();
     render->add_option("--seed", a.options.seed, "of the random numbers; same seed, same bytes")
+        ->check(CLI::Range(std::uint32_t(0), std::numeric_limits<std::uint32_t>::max()).description(""))
+        ->type_name("N")
         ->capture_default_str();
-    render->add_option("--method", a.options.method, "how direct light is found (see --list)");
-    render->add_option("--view", a.options.view, "what the picture shows (see --list)");
-    render->add_option("--camera", a.options.camera, "a camera of the scene by name");
-    render->add_option("--set", a.sets, "key=value of a setting, any number of times (see --list)")
-        ->allow_extra_args(false);
-    render->add_option("--stats", a.statistics, "write statistics to this JSON file");
-    render->add_option("--dump", a.dumpFolder,
-                       "write every target of the last frame as EXR into this folder");
+    render->add_option("--method", a.options.method, "how direct light is found (see --list)")
+        ->type_name("NAME");
+    render->add_option("--view", a.options.view, "what the picture shows (see --list)")->type_name("NAME");
+    render->add_option("--camera", a.options.camera, "a camera of the scene")->type_name("NAME");
+    render->add_option("--set", a.sets, "a setting, any number of times (see --list)")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    render->add_option("--stats", a.statistics, "write statistics to this JSON file")->type_name("FILE");
+    render->add_option("--dump", a.dumpFolder, "write every target of the last frame as EXR into this folder")
+        ->type_name("FOLDER");
     render->add_flag("--half", a.half, "EXR in 16-bit floats");
     render->add_flag("--list", a.list, "list methods, views and settings");
     render->add_flag("--json", a.json, "with --list: as JSON")->needs("--list");

@@ -34,6 +34,9 @@ std::string argumentError(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<std::string> unknown = app.remaining(true);
     if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) || unknown.empty())
         return fmt::format("{} ({})", error.what(), help);
+    const std::string& argument = unknown.front();
+    if (!command.get_parent() && (argument.ends_with(".glb") || argument.ends_with(".gltf")))
+        return fmt::format("say what to do with '{0}': kilolux render '{0}' -o OUT.png", argument);
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames())
@@ -41,15 +44,16 @@ std::string argumentError(const CLI::App& app, const CLI::ParseError& error) {
     for (const CLI::App* subcommand : command.get_subcommands([](const CLI::App*) { return true; }))
         names.push_back(subcommand->get_name());
     const std::vector<std::string_view> views(names.begin(), names.end());
-    return fmt::format("unexpected argument '{}'; {} ({})", unknown.front(),
-                       nearestNameHint(unknown.front(), views), help);
+    const std::string_view nearest = nearestName(argument, views);
+    const std::string meant = nearest.empty() ? std::string() : fmt::format("; did you mean '{}'?", nearest);
+    return fmt::format("unexpected argument '{}'{} ({})", argument, meant, help);
 }
 
 ExitCode runCommandLine(int argc, char** argv) {
     CLI::App app{"Kilolux, a lighting tool for scenes with very many shadowed area lights.", "kilolux"};
     app.footer(kHelpFooter);
-    app.set_version_flag("--version", "kilolux " KILOLUX_VERSION);
-    app.set_help_all_flag("--help-all", "help of all commands");
+    app.set_version_flag("--version", "kilolux " KILOLUX_VERSION, "print the version and exit");
+    app.set_help_flag("-h,--help", "print this help and exit");
     bool list = false;
     bool json = false;
     app.add_flag("--list", list, "list methods, views and settings");

@@ -28,17 +28,31 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
 
 } // namespace
 
-std::string nearestNameHint(std::string_view typed, std::span<const std::string_view> names) {
+std::string_view nearestName(std::string_view typed, std::span<const std::string_view> names) {
     // Longer input cannot be a slip of the hand, and its distance would cost time.
-    if (typed.size() <= 64) {
-        const auto nearer = [&](std::string_view a, std::string_view b) {
-            return editDistance(typed, a) < editDistance(typed, b);
-        };
-        const std::string_view nearest = *std::min_element(names.begin(), names.end(), nearer);
-        if (editDistance(typed, nearest) * 3 <= std::max(typed.size(), nearest.size()))
-            return fmt::format("did you mean '{}'?", nearest);
+    if (typed.size() > 64) return {};
+    std::string_view nearest;
+    std::size_t nearestDistance = typed.size() + 1;
+    for (const std::string_view name : names) {
+        const std::size_t distance = editDistance(typed, name);
+        if (distance >= nearestDistance || distance * 3 > std::max(typed.size(), name.size())) continue;
+        nearest = name;
+        nearestDistance = distance;
     }
-    return fmt::format("choose one of: {}", fmt::join(names, ", "));
+    return nearest;
+}
+
+std::string nearestNameHint(std::string_view typed, std::span<const std::string_view> names) {
+    const std::string_view nearest = nearestName(typed, names);
+    return nearest.empty() ? namesHint(names) : fmt::format("did you mean '{}'?", nearest);
+}
+
+std::string namesHint(std::span<const std::string_view> names) {
+    constexpr std::size_t kMaxNames = 40;
+    const std::span<const std::string_view> shown = names.first(std::min(names.size(), kMaxNames));
+    const std::string more =
+        names.size() > kMaxNames ? fmt::format(" and {} more", names.size() - kMaxNames) : std::string();
+    return fmt::format("choose one of: {}{}", fmt::join(shown, ", "), more);
 }
 
 } // namespace kilolux
