@@ -73,7 +73,7 @@ std::string oneLine(std::string text) {
 }
 
 std::string writeWithOiio(const fs::path& file, const char* format, const OIIO::ImageSpec& spec,
-                          OIIO::TypeDesc pixelType, const void* pixels) {
+                          const OIIO::TypeDesc& pixelType, const void* pixels) {
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output) return oneLine(OIIO::geterror());
     if (!output->open(file.string(), spec)) return oneLine(output->geterror());
