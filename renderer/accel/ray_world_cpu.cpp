@@ -86,8 +86,8 @@ bool alphaPasses(const RayWorld& world, std::uint32_t instance, std::uint32_t pr
     return shader::alphaPasses(instance, primitive, barycentrics);
 }
 
-float positionErrorM(const glm::vec3& position, float viewDistanceM) {
-    return shader::positionErrorM(position, viewDistanceM);
+float positionErrorM(const glm::vec3& position) {
+    return shader::positionErrorM(position);
 }
 
 glm::vec3 offsetRayOrigin(const glm::vec3& position, const glm::vec3& ng, const glm::vec3& dir, float errorM) {

@@ -23,7 +23,7 @@ bool alphaPasses(const RayWorld& world, std::uint32_t instance, std::uint32_t pr
                  const glm::vec2& barycentrics);
 
 // ray.glsl
-float positionErrorM(const glm::vec3& position, float viewDistanceM);
+float positionErrorM(const glm::vec3& position);
 glm::vec3 offsetRayOrigin(const glm::vec3& position, const glm::vec3& ng, const glm::vec3& dir, float errorM);
 
 // tile_order.glsl

@@ -39,18 +39,19 @@ KX_INLINE Ray makeRay(vec3 origin, vec3 dir, float tMaxM) {
     return ray;
 }
 
-// How far a surface point may be off its surface, metres, by rounding alone: of the corners and transforms (the
-// point's own magnitude) and of the camera ray or depth that gave it (`viewDistanceM`, the distance it was found
-// from). A dozen roundings of 2^-24 each; Pharr, Jakob and Humphreys, "Physically Based Rendering", section 3.9.
-KX_INLINE float positionErrorM(vec3 position, float viewDistanceM) {
+// How far a surface point may be off its surface, metres, when it was interpolated from its triangle's corners by
+// barycentrics: a dozen roundings of 2^-24 of its magnitude (Pharr, Jakob and Humphreys, "Physically Based
+// Rendering", section 3.9.4). Positions from a ray's t are worse by the triangle's size: interpolate instead.
+KX_INLINE float positionErrorM(vec3 position) {
     vec3 size = abs(position);
-    return 7.5e-7 * (max(size.x, max(size.y, size.z)) + viewDistanceM);
+    return 7.5e-7 * max(size.x, max(size.y, size.z));
 }
 
-// The same for a point whose depth was rasterized: corners are snapped to 1/256 of a pixel before depth is
-// interpolated, which shifts the surface by half of that at most. `pixelAngleRad`: 2 tan(fovY / 2) / height.
+// The same for a point from a rasterized depth: corners are snapped to 1/256 of a pixel before depth is
+// interpolated, which shifts the surface by half of that at most; the depth itself has a dozen roundings.
+// `pixelAngleRad`: 2 tan(fovY / 2) / height in pixels.
 KX_INLINE float rasterPositionErrorM(vec3 position, float viewDistanceM, float pixelAngleRad) {
-    return positionErrorM(position, viewDistanceM) + viewDistanceM * pixelAngleRad * (1.0 / 512.0);
+    return positionErrorM(position) + viewDistanceM * (pixelAngleRad * (1.0 / 512.0) + 7.5e-7);
 }
 
 // The origin of a ray that leaves a surface: moved off it along the geometric normal `ng`, to the side that

@@ -146,12 +146,25 @@ struct PairHit {
 // origin: rounding of the corners, of their difference to the origin and of the shear (10 to 12 units of 2^-24).
 // An origin nearer than that lies in the plane, and the triangle cannot stop its ray.
 const float TRACE_PLANE_SLACK = 9.6e-7;
+// The distance along the ray comes from the edge functions, which lose this much more on slivers (1 : 100).
+const float TRACE_SLIVER_SLACK = 16.0;
 
-KX_INLINE bool originInPlane(vec3 a, vec3 b, vec3 c) {
-    vec3 normal = cross(b - a, c - a);
+// True when the ray starts in the plane of the triangle or, as far as the better conditioned normal used here can
+// tell, has left it behind. `facing` is positive when the ray meets the front.
+KX_INLINE bool startsInPlane(vec3 a, vec3 b, vec3 c, float facing) {
+    // The normal is taken at the corner between the two shorter edges: at the others of a sliver, products of two
+    // long edges would cancel and leave mostly rounding.
+    vec3 ab = b - a, bc = c - b, ca = a - c;
+    float lengthAb = dot(ab, ab), lengthBc = dot(bc, bc), lengthCa = dot(ca, ca);
+    bool atC = lengthAb >= lengthBc && lengthAb >= lengthCa;
+    bool atA = !atC && lengthBc >= lengthCa;
+    vec3 normal = cross(atC ? bc : atA ? ca : ab, atC ? ca : atA ? ab : bc);
+    float ahead = dot(normal, atC ? c : atA ? a : b);
+    ahead = facing > 0.0 ? -ahead : ahead;
     vec3 far = max(abs(a), max(abs(b), abs(c)));
     float size = abs(normal.x) + abs(normal.y) + abs(normal.z);
-    return abs(dot(normal, a)) <= TRACE_PLANE_SLACK * size * max(far.x, max(far.y, far.z));
+    float slack = TRACE_PLANE_SLACK * size * max(far.x, max(far.y, far.z));
+    return ahead <= slack && ahead >= -TRACE_SLIVER_SLACK * slack;
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -250,7 +263,7 @@ KX_INLINE bool intersectPair(uint pair, TraceSpace space, float tMin, uint alpha
         float t = dot(weights, vec3(dot(space.rowZ, corner0), dot(space.rowZ, b), dot(space.rowZ, corner2))) *
                   inverse;
         // A determinant of 0 gives NaN or infinity, which fail here.
-        if (t >= tMin && t < found.tM && !originInPlane(corner0, b, corner2)) {
+        if (t >= tMin && t < found.tM && !startsInPlane(corner0, b, corner2, determinant)) {
             PairHit candidate;
             candidate.tM = t;
             candidate.weights = weights * inverse;
