@@ -182,8 +182,7 @@ OraclePointResult assemble(const OraclePoint& point, const dvec3& radianceNit, c
     result.unshadowedIrradianceLux = radianceNit * exact.diffuse;
     result.unshadowedDiffuseNit = result.unshadowedIrradianceLux * albedo / kPi;
     result.unshadowedSpecularNit = radianceNit * (f0 * exact.specularF0 + dvec3(exact.specularOne));
-    dvec3 sum(0.0);
-    dvec3 sumOfSquares(0.0);
+    dvec3 totals[kReplicas];
     double diffuse = 0.0;
     for (int r = 0; r < kReplicas; ++r) {
         const dvec3 diffuseNit = radianceNit * shadowed.diffuse[r] * albedo / kPi;
@@ -192,14 +191,16 @@ OraclePointResult assemble(const OraclePoint& point, const dvec3& radianceNit, c
         result.diffuseNit += diffuseNit / double(kReplicas);
         result.specularNit += specularNit / double(kReplicas);
         diffuse += shadowed.diffuse[r] / kReplicas;
-        sum += diffuseNit + specularNit;
-        sumOfSquares += (diffuseNit + specularNit) * (diffuseNit + specularNit);
+        totals[r] = diffuseNit + specularNit;
     }
     result.irradianceLux = radianceNit * diffuse;
     result.visibility = exact.diffuse > 0.0 ? diffuse / exact.diffuse : 0.0;
-    const dvec3 variance =
-        glm::max(sumOfSquares - sum * sum / double(kReplicas), dvec3(0.0)) / (kReplicas - 1.0);
-    result.standardErrorNit = glm::sqrt(variance / double(kReplicas));
+    dvec3 squares(0.0);
+    for (const dvec3& total : totals) {
+        const dvec3 deviation = total - result.diffuseNit - result.specularNit;
+        squares += deviation * deviation;
+    }
+    result.standardErrorNit = glm::sqrt(squares / (kReplicas * (kReplicas - 1.0)));
     return result;
 }
 
