@@ -172,10 +172,7 @@ LtcFit fitLtc(double noV, double roughness, glm::dvec4 start) {
     fit.parameters = {std::exp(point.x), std::exp(point.y), point.z, point.w};
     fit.error = error(point);
     const f64::LtcLobe lobe = lobeOf(view, fit.parameters, albedo.all);
-    const glm::dvec3 mean = f64::ltcMeanDirAboveHorizon(lobe, kNormal);
-    const double atMean = f64::ggxTimesCosine(kNormal, view.dir, noV, mean, view.alpha).y;
-    fit.scales = {lobe.amplitude, albedo.grazing / albedo.all - atMean, albedo.all - albedo.grazing,
-                  albedo.grazing};
+    fit.scales = {lobe.amplitude, albedo.all - albedo.grazing, albedo.grazing, fit.error};
     return fit;
 }
 

@@ -10,7 +10,7 @@ namespace kilolux {
 // One node of the table, in double.
 struct LtcFit {
     glm::dvec4 parameters{1.0, 1.0, 0.0, 0.0};
-    glm::dvec4 scales{1.0, 1.0, 0.0, 0.0};
+    glm::dvec4 scales{1.0, 0.0, 0.0, 0.0};
     double error = 0.0; // of the shape: integral of (GGX - LTC)^2 / (GGX + 2 % of the peak), over GGX's integral
 };
 

@@ -30,7 +30,6 @@ vec2 ltcInputsFromNode(vec2 node);
 vec2 ltcUv(float noV, float roughness);
 LtcLobe ltcLobeFromParameters(mat3 worldFromSurface, float noV, float alpha, vec4 parameters);
 float ltcShareAboveHorizon(LtcLobe lobe, vec3 normal);
-vec3 ltcMeanDirAboveHorizon(LtcLobe lobe, vec3 normal);
 float ltcDensity(LtcLobe lobe, vec3 dirWs);
 
 ShadingPoint makeShadingPoint(vec3 positionWs, vec3 normalWs, vec3 viewDirWs, float roughness);
@@ -40,7 +39,7 @@ bool lightIsOn(LightHot light);
 bool lightIsDelta(LightHot light);
 LightBounds lightBounds(LightHot light);
 vec3 lightEvaluate(LightHot light, vec3 receiverWs);
-EmitterOutline lightOutline(LightHot light, vec3 receiverWs);
+EmitterOutline lightOutline(LightHot light, vec3 receiverWs, float alpha);
 LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, LtcLobe lobe);
 float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0);
 LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv);

@@ -31,10 +31,10 @@ KX_INLINE vec3 directionalEvaluate(LightHot light, vec3 receiverWs) {
     return light.intensity * (KX_INV_PI / directionalSin2(light));
 }
 
-KX_INLINE EmitterOutline directionalOutline(LightHot light, vec3 receiverWs) {
+KX_INLINE EmitterOutline directionalOutline(LightHot light, vec3 receiverWs, float alpha) {
     if (directionalIsDelta(light))
         return pointOutline(-light.dirWs, 1.0);
-    return coneOutline(-light.dirWs, sqrt(directionalSin2(light)));
+    return coneOutline(-light.dirWs, sqrt(directionalSin2(light)), alpha);
 }
 
 KX_INLINE LightSample directionalSample(LightHot light, vec3 receiverWs, vec2 uv) {
@@ -65,7 +65,7 @@ KX_INLINE LightHit directionalIntersect(LightHot light, vec3 originWs, vec3 dirW
     float sin2 = dot(aside, aside);
     float cosine = dot(dirWs, frame[2]);
     if (directionalIsDelta(light) || cosine <= 0.0 || sin2 > directionalSin2(light))
-        return noHit();
+        return noLightHit();
     float full = directionalOneMinusCos(light);
     LightHit hit;
     hit.hit = true;

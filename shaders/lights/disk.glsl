@@ -20,7 +20,7 @@ KX_INLINE vec3 diskEvaluate(LightHot light, vec3 receiverWs) {
     return light.intensity * (side * rangeWindow(light, length(fromCenter)) / diskAreaM2(light));
 }
 
-KX_INLINE EmitterOutline diskOutline(LightHot light, vec3 receiverWs) {
+KX_INLINE EmitterOutline diskOutline(LightHot light, vec3 receiverWs, float alpha) {
     vec3 toCenter = light.positionWs - receiverWs;
     float distance2 = dot(toCenter, toCenter);
     float height = -dot(light.dirWs, toCenter);
@@ -30,7 +30,7 @@ KX_INLINE EmitterOutline diskOutline(LightHot light, vec3 receiverWs) {
     mat3 frame = lightFrame(light);
     float radius = light.sizeM.x * invDistance;
     EmitterOutline outline = pointOutline(toCenter * invDistance, diskAreaM2(light) * height * invDistance / distance2);
-    int vertices = radius > 0.5 ? 2 * KX_CIRCLE_VERTICES : KX_CIRCLE_VERTICES;
+    int vertices = radius > 0.5 ? 2 * KX_CIRCLE_VERTICES : circleVertices(radius, alpha);
     outline.centerA = outline.dirWs;
     outline.axisXA = frame[0] * radius;
     outline.axisYA = frame[1] * radius;
@@ -38,6 +38,7 @@ KX_INLINE EmitterOutline diskOutline(LightHot light, vec3 receiverWs) {
     outline.bulge = vec2(circleBulge(vertices));
     outline.countA = vertices;
     outline.count = vertices;
+    outline.sectors = KX_CIRCLE_SECTORS;
     outline.angularRadius = min(radius, 1.0);
     return outline;
 }
@@ -54,13 +55,13 @@ KX_INLINE LightHit diskIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     vec3 toCenter = light.positionWs - originWs;
     float height = -dot(light.dirWs, toCenter);
     if (cosEmitter <= 0.0 || height <= 0.0)
-        return noHit();
+        return noLightHit();
     float distanceM = height / cosEmitter;
     vec3 fromCenter = dirWs * distanceM - toCenter;
     mat3 frame = lightFrame(light);
     vec2 p = vec2(dot(fromCenter, frame[0]), dot(fromCenter, frame[1])) / max(light.sizeM.x, 1.0e-12);
     if (dot(p, p) > 1.0)
-        return noHit();
+        return noLightHit();
     return areaHit(distanceM, squareFromDisk(p), 1.0 / diskAreaM2(light), cosEmitter);
 }
 

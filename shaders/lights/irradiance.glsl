@@ -1,7 +1,7 @@
 // Analytic irradiance of an outline: diffuse by Lambert's formula, GGX by linearly transformed cosines (Heitz et
-// al. 2016), both clipped to the horizon, from one walk over the outline's edges. Where the walk says how much of
-// the LTC the light covers and in which direction, the true GGX value over the LTC's there corrects the fit: that
-// is exact for small lights and fades out for those that cover the lobe, whose integral is exact by the fit.
+// al. 2016), both clipped to the horizon. The LTC is only a fit, so its integral is taken over sectors of the light
+// and each is corrected by the true GGX over the LTC in the sector's mean direction, under the lobe: exact for small
+// lights, and a good cubature for large ones. Measured against quadrature in tests/unit/lights/accuracy_test.cpp.
 #ifndef KILOLUX_LIGHTS_IRRADIANCE_GLSL
 #define KILOLUX_LIGHTS_IRRADIANCE_GLSL
 #include "../math/ltc.glsl"
@@ -22,67 +22,155 @@ KX_INLINE vec3 outlineVertex(EmitterOutline outline, int index) {
     return onB ? atB : atA;
 }
 
-struct OutlineIntegral {
-    vec3 diffuse;  // vector irradiance of unit radiance above the horizon, in world space
-    vec3 specular; // the same in LTC space, above the horizon of both
+// A polygon walked edge by edge in LTC space and clipped to z >= 0 there.
+struct LtcWalk {
+    vec3 sum;   // twice the vector irradiance so far
+    vec3 exit_; // where the walk went below and came up again
+    vec3 entry;
 };
 
-// Adds an edge in LTC space, clipped to z >= 0; `exit_` and `entry` keep where the outline left and came back.
-KX_INLINE vec3 specularEdge(vec3 a, vec3 b, INOUT(vec3) exit_, INOUT(vec3) entry) {
+KX_INLINE LtcWalk startWalk() {
+    LtcWalk walk;
+    walk.sum = vec3(0.0);
+    walk.exit_ = vec3(0.0);
+    walk.entry = vec3(0.0);
+    return walk;
+}
+
+KX_INLINE void walkEdge(INOUT(LtcWalk) walk, vec3 a, vec3 b) {
     if (a.z < 0.0 && b.z < 0.0)
-        return vec3(0.0);
+        return;
     vec3 from = a;
     vec3 to = b;
     if (a.z < 0.0) {
         from = horizonCrossing(a, a.z, b, b.z);
-        entry = from;
+        walk.entry = from;
     } else if (b.z < 0.0) {
         to = horizonCrossing(b, b.z, a, a.z);
-        exit_ = to;
+        walk.exit_ = to;
     }
-    return edgeVectorIrradiance(from, to);
+    walk.sum += edgeVectorIrradiance(from, to);
 }
 
-KX_INLINE OutlineIntegral integrateOutline(EmitterOutline outline, vec3 normal, LtcLobe lobe) {
-    OutlineIntegral sum;
-    sum.diffuse = vec3(0.0);
-    sum.specular = vec3(0.0);
-    vec3 worldExit = vec3(0.0); // where the outline goes below the horizon and comes up again
-    vec3 worldEntry = vec3(0.0);
-    vec3 ltcExit = vec3(0.0);
-    vec3 ltcEntry = vec3(0.0);
-    vec3 a = outlineVertex(outline, outline.count - 1);
-    float heightA = dot(a, normal);
-    // One turn more than there are edges: it closes the outline along the horizon.
-    for (int i = 0; i <= outline.count; ++i) {
-        vec3 from = worldExit;
-        vec3 to = worldEntry;
-        bool visible = true;
-        if (i < outline.count) {
-            vec3 b = outlineVertex(outline, i);
-            float heightB = dot(b, normal);
-            from = a;
-            to = b;
-            visible = heightA >= 0.0 || heightB >= 0.0;
-            if (heightA < 0.0 && heightB >= 0.0) {
-                from = horizonCrossing(a, heightA, b, heightB);
-                worldEntry = from;
-            } else if (heightA >= 0.0 && heightB < 0.0) {
-                to = horizonCrossing(b, heightB, a, heightA);
-                worldExit = to;
+KX_INLINE vec3 walkSum(LtcWalk walk) {
+    return (walk.sum + edgeVectorIrradiance(walk.exit_, walk.entry)) * 0.5;
+}
+
+// The outline edge by edge in world space, clipped to the horizon.
+struct OutlineWalk {
+    vec3 vertex; // the last one reached, and its height above the horizon
+    float height;
+    vec3 exit_; // where the outline went below and came up again
+    vec3 entry;
+    vec3 from; // the current edge, where `visible`
+    vec3 to;
+    bool visible;
+    bool begins; // the edge begins a sector
+    bool ends;
+};
+
+KX_INLINE OutlineWalk startOutlineWalk(EmitterOutline outline, vec3 normal) {
+    OutlineWalk walk;
+    walk.vertex = outlineVertex(outline, outline.count - 1);
+    walk.height = dot(walk.vertex, normal);
+    walk.exit_ = vec3(0.0);
+    walk.entry = vec3(0.0);
+    walk.from = walk.vertex;
+    walk.to = walk.vertex;
+    walk.visible = false;
+    walk.begins = false;
+    walk.ends = false;
+    return walk;
+}
+
+// Edge `index` ends at that vertex; the one after the last closes the outline along the horizon.
+KX_INLINE void stepOutline(INOUT(OutlineWalk) walk, EmitterOutline outline, vec3 normal, int index) {
+    walk.from = walk.exit_;
+    walk.to = walk.entry;
+    walk.visible = true;
+    walk.begins = true;
+    walk.ends = true;
+    if (index >= outline.count)
+        return;
+    vec3 next = outlineVertex(outline, index);
+    float heightNext = dot(next, normal);
+    walk.from = walk.vertex;
+    walk.to = next;
+    walk.visible = walk.height >= 0.0 || heightNext >= 0.0;
+    walk.begins = index * outline.sectors % outline.count == 0;
+    walk.ends = (index + 1) * outline.sectors % outline.count == 0;
+    if (walk.height < 0.0 && heightNext >= 0.0) {
+        walk.from = horizonCrossing(walk.vertex, walk.height, next, heightNext);
+        walk.entry = walk.from;
+        walk.begins = true;
+    } else if (walk.height >= 0.0 && heightNext < 0.0) {
+        walk.to = horizonCrossing(next, heightNext, walk.vertex, walk.height);
+        walk.exit_ = walk.to;
+        walk.ends = true;
+    }
+    walk.vertex = next;
+    walk.height = heightNext;
+}
+
+// The fitted lobe over a sector with this vector irradiance in LTC space, times GGX over the LTC in its mean
+// direction; split for Fresnel. A wide sector's mean under the cosine lies nearer the lobe's axis than its vector
+// irradiance does: 2.28 makes it right for a quarter of the hemisphere.
+KX_INLINE vec2 correctedSector(ShadingPoint point, LtcLobe lobe, vec3 sector) {
+    float share = sector.z * KX_INV_PI;
+    if (share <= 0.0)
+        return vec2(0.0);
+    vec3 dir = lobe.worldFromLtc * vec3(sector.x, sector.y, sector.z * (1.0 + 2.28 * share));
+    dir = dir * inversesqrt(max(dot(dir, dir), 1.0e-30));
+    vec2 exact = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, dir, point.alpha);
+    float density = ltcDensity(lobe, dir);
+    float value = density > 0.0 ? share * min(exact.x / density, 100.0 * lobe.amplitude) : 0.0;
+    return vec2(value * (1.0 - exact.y), value * exact.y);
+}
+
+struct OutlineIntegral {
+    vec3 diffuse;  // vector irradiance of unit radiance above the horizon, in world space
+    float covered; // share of the LTC
+    vec2 specular; // split for Fresnel
+};
+
+// Two turns around the outline: the first finds the middle of what the lobe sees, the second sums the sectors
+// about it.
+KX_INLINE OutlineIntegral integrateOutline(EmitterOutline outline, ShadingPoint point, LtcLobe lobe) {
+    OutlineIntegral result;
+    result.diffuse = vec3(0.0);
+    result.covered = 0.0;
+    result.specular = vec2(0.0);
+    vec3 middle = vec3(0.0, 0.0, 1.0);
+    LtcWalk part = startWalk(); // of the whole light, then of a sector
+    for (int turn = 0; turn < 2; ++turn) {
+        OutlineWalk walk = startOutlineWalk(outline, point.normalWs);
+        for (int i = 0; i <= outline.count; ++i) {
+            stepOutline(walk, outline, point.normalWs, i);
+            if (!walk.visible)
+                continue;
+            vec3 from = lobe.ltcFromWorld * walk.from;
+            vec3 to = lobe.ltcFromWorld * walk.to;
+            bool begins = turn == 1 && walk.begins;
+            bool ends = turn == 1 && walk.ends;
+            if (turn == 0)
+                result.diffuse += edgeVectorIrradiance(walk.from, walk.to) * 0.5;
+            if (begins) {
+                part = startWalk();
+                walkEdge(part, middle, from);
             }
-            a = b;
-            heightA = heightB;
+            walkEdge(part, from, to);
+            if (ends) {
+                walkEdge(part, to, middle);
+                result.specular += correctedSector(point, lobe, walkSum(part));
+            }
         }
-        if (visible) {
-            sum.diffuse += edgeVectorIrradiance(from, to);
-            sum.specular += specularEdge(lobe.ltcFromWorld * from, lobe.ltcFromWorld * to, ltcExit, ltcEntry);
+        if (turn == 0) {
+            middle = walkSum(part);
+            result.covered = max(middle.z, 0.0) * KX_INV_PI;
+            middle = middle * inversesqrt(max(dot(middle, middle), 1.0e-30));
         }
     }
-    sum.specular += edgeVectorIrradiance(ltcExit, ltcEntry);
-    sum.diffuse = sum.diffuse * 0.5;
-    sum.specular = sum.specular * 0.5;
-    return sum;
+    return result;
 }
 
 // The mean of max(cosine, 0) over a small round light at this cosine, whose extent along the normal is +-sine.
@@ -106,23 +194,29 @@ KX_INLINE LightIrradiance smallIrradiance(EmitterOutline outline, ShadingPoint p
 
 // `emission` is lightEvaluate() at the point.
 KX_INLINE LightIrradiance outlineIrradiance(EmitterOutline outline, ShadingPoint point, LtcLobe lobe, vec3 emission) {
-    float small_ = min(0.01, 0.1 * point.alpha);
-    if (outline.solidAngle <= 0.0 || outline.angularRadius <= small_)
-        return smallIrradiance(outline, point, emission);
-    OutlineIntegral sum = integrateOutline(outline, point.normalWs, lobe);
+    if (outline.solidAngle <= 0.0 || outline.angularRadius <= min(0.01, 0.1 * point.alpha)) {
+        bool cut = abs(dot(point.normalWs, outline.dirWs)) < outline.angularRadius;
+        if (!cut || outline.angularRadius < 1.0e-4)
+            return smallIrradiance(outline, point, emission);
+    }
+    OutlineIntegral sum = integrateOutline(outline, point, lobe);
     LightIrradiance result;
     result.emission = emission;
     result.diffuse = max(dot(sum.diffuse, point.normalWs), 0.0) * outline.correction;
-    float covered = max(sum.specular.z, 0.0) * KX_INV_PI;
-    vec3 meanDir = lobe.worldFromLtc * sum.specular;
-    meanDir = meanDir * inversesqrt(max(dot(meanDir, meanDir), 1.0e-30));
-    vec2 exact = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, meanDir, point.alpha);
-    float fitted = lobe.amplitude * ltcDensity(lobe, meanDir);
-    float ratio = fitted > 0.0 ? min(exact.x / fitted, 8.0) : 1.0;
-    ratio = mix(ratio, 1.0, covered);
-    float specular = covered * lobe.amplitude * ratio;
-    float fresnel = saturate(exact.y + covered * lobe.fresnelOffset);
-    result.specular = vec2(specular * (1.0 - fresnel), specular * fresnel);
+    // A light that covers the whole lobe gives the lobe's integral.
+    float ofLobe = saturate(sum.covered * lobe.amplitude / max(lobe.albedo.x + lobe.albedo.y, 1.0e-6));
+    float whole = square(square(square(ofLobe)));
+    vec2 fitted = mix(sum.specular, lobe.albedo * ofLobe, whole);
+    // The fitted lobe ends at a plane of its own. Where the light lies about there or beyond and is narrow against
+    // the lobe, its solid angle times GGX at its middle is better.
+    float solidAngle = length(sum.diffuse);
+    vec3 middle = sum.diffuse / max(solidAngle, 1.0e-20);
+    vec3 ltcMiddle = lobe.ltcFromWorld * middle;
+    float beyond = 1.0 - smoothstep(0.0, 0.2, ltcMiddle.z * inversesqrt(max(dot(ltcMiddle, ltcMiddle), 1.0e-30)));
+    float narrow = 1.0 - smoothstep(0.15, 0.6, sqrt(solidAngle * KX_INV_PI) / point.alpha);
+    vec2 ggx = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, middle, point.alpha);
+    float direct = solidAngle * ggx.x;
+    result.specular = mix(fitted, vec2(direct * (1.0 - ggx.y), direct * ggx.y), beyond * narrow);
     return result;
 }
 

@@ -80,18 +80,19 @@ KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
     return emission;
 }
 
-KX_INLINE EmitterOutline lightOutline(LightHot light, vec3 receiverWs) {
+// The silhouette from a receiver; `alpha` of its surface decides how finely it is drawn.
+KX_INLINE EmitterOutline lightOutline(LightHot light, vec3 receiverWs, float alpha) {
     uint type = lightType(light);
     if (KX_HAS_TUBE && type == LIGHT_TUBE)
-        return tubeOutline(light, receiverWs);
+        return tubeOutline(light, receiverWs, alpha);
     if (KX_HAS_RECT && type == LIGHT_RECT)
-        return rectOutline(light, receiverWs);
+        return rectOutline(light, receiverWs, alpha);
     if (KX_HAS_DISK && type == LIGHT_DISK)
-        return diskOutline(light, receiverWs);
+        return diskOutline(light, receiverWs, alpha);
     if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
-        return directionalOutline(light, receiverWs);
+        return directionalOutline(light, receiverWs, alpha);
     if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
-        return sphereOutline(light, receiverWs);
+        return sphereOutline(light, receiverWs, alpha);
     return unlitOutline();
 }
 
@@ -105,7 +106,7 @@ KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, Lt
         none.specular = vec2(0.0);
         return none;
     }
-    return outlineIrradiance(lightOutline(light, point.positionWs), point, lobe, emission);
+    return outlineIrradiance(lightOutline(light, point.positionWs, point.alpha), point, lobe, emission);
 }
 
 // About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the luminance of
@@ -141,7 +142,7 @@ KX_INLINE LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv) {
 // Where a ray with unit direction meets the emitting side of the light. Points and delta directions are never met.
 KX_INLINE LightHit lightIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     uint type = lightType(light);
-    LightHit hit = noHit();
+    LightHit hit = noLightHit();
     if (!lightIsOn(light))
         return hit;
     if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))

@@ -19,7 +19,6 @@ struct LtcLobe {
     mat3 worldFromLtc;
     float density;      // determinant of ltcFromWorld over pi: scales the density in directions
     float amplitude;    // integral of D * V * cosine over the hemisphere, over that of the LTC above the horizon
-    float fresnelOffset; // mean of Schlick's weight over the lobe, minus its value at the lobe's mean direction
     vec2 albedo;        // pre-integrated environment BRDF: F0 * x + F90 * y
 };
 
@@ -78,6 +77,7 @@ struct EmitterOutline {
     int endVertices;    // how many at each end of an arc stay unmoved
     int countA;         // vertices of A
     int count;          // vertices of both
+    int sectors;        // parts that the fit is corrected in; divides count
     float correction;   // exact over polygonal diffuse irradiance where nothing is below the horizon
     vec3 dirWs;         // unit, towards the centre
     float angularRadius; // sine of the half angle of a cone that holds the light; 0 for points

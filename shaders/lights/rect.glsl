@@ -21,7 +21,7 @@ KX_INLINE vec3 rectEvaluate(LightHot light, vec3 receiverWs) {
 }
 
 // The four corners are an ellipse's points at 45, 135, 225 and 315 degrees.
-KX_INLINE EmitterOutline rectOutline(LightHot light, vec3 receiverWs) {
+KX_INLINE EmitterOutline rectOutline(LightHot light, vec3 receiverWs, float alpha) {
     vec3 toCenter = light.positionWs - receiverWs;
     float distance2 = dot(toCenter, toCenter);
     float height = -dot(light.dirWs, toCenter);
@@ -36,6 +36,7 @@ KX_INLINE EmitterOutline rectOutline(LightHot light, vec3 receiverWs) {
     outline.arcA = vec2(0.5 * KX_HALF_PI, KX_HALF_PI);
     outline.countA = 4;
     outline.count = 4;
+    outline.sectors = 4;
     outline.angularRadius = min(length(light.sizeM) * invDistance, 1.0);
     return outline;
 }
@@ -52,13 +53,13 @@ KX_INLINE LightHit rectIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     vec3 toCenter = light.positionWs - originWs;
     float height = -dot(light.dirWs, toCenter);
     if (cosEmitter <= 0.0 || height <= 0.0)
-        return noHit();
+        return noLightHit();
     float distanceM = height / cosEmitter;
     vec3 fromCenter = dirWs * distanceM - toCenter;
     mat3 frame = lightFrame(light);
     vec2 p = vec2(dot(fromCenter, frame[0]) / max(light.sizeM.x, 1.0e-12), dot(fromCenter, frame[1]) / max(light.sizeM.y, 1.0e-12));
     if (max(abs(p.x), abs(p.y)) > 1.0)
-        return noHit();
+        return noLightHit();
     return areaHit(distanceM, p * 0.5 + vec2(0.5), 1.0 / rectAreaM2(light), cosEmitter);
 }
 

@@ -21,8 +21,7 @@ KX_INLINE LtcLobe makeLtcLobe(ShadingPoint point) {
     mat3 worldFromSurface = basisFromNormalTangent(point.normalWs, point.viewDirWs);
     LtcLobe lobe = ltcLobeFromParameters(worldFromSurface, point.noV, point.alpha, ltcLookup0(uv));
     lobe.amplitude = scales.x;
-    lobe.fresnelOffset = scales.y;
-    lobe.albedo = vec2(scales.z, scales.w);
+    lobe.albedo = vec2(scales.y, scales.z);
     return lobe;
 }
 

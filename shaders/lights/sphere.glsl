@@ -19,7 +19,7 @@ KX_INLINE vec3 sphereEvaluate(LightHot light, vec3 receiverWs) {
     return light.intensity * (window * perArea);
 }
 
-KX_INLINE EmitterOutline sphereOutline(LightHot light, vec3 receiverWs) {
+KX_INLINE EmitterOutline sphereOutline(LightHot light, vec3 receiverWs, float alpha) {
     vec3 toCenter = light.positionWs - receiverWs;
     float distance2 = dot(toCenter, toCenter);
     if (distance2 <= max(square(light.sizeM.x), 1.0e-24))
@@ -27,7 +27,7 @@ KX_INLINE EmitterOutline sphereOutline(LightHot light, vec3 receiverWs) {
     float invDistance = inversesqrt(distance2);
     if (sphereIsPoint(light))
         return pointOutline(toCenter * invDistance, invDistance * invDistance);
-    return coneOutline(toCenter * invDistance, min(light.sizeM.x * invDistance, 1.0));
+    return coneOutline(toCenter * invDistance, min(light.sizeM.x * invDistance, 1.0), alpha);
 }
 
 // Points that face away are mirrored in the plane through the centre that faces the receiver, then moved so that
@@ -67,7 +67,7 @@ KX_INLINE LightHit sphereIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     vec3 aside = toCenter - dirWs * along;
     float inside2 = radius * radius - dot(aside, aside);
     if (sphereIsPoint(light) || distance2 <= radius * radius || along <= 0.0 || inside2 < 0.0)
-        return noHit();
+        return noLightHit();
     float distanceM = along - sqrt(inside2);
     vec3 normal = normalize(dirWs * distanceM - toCenter);
     float capHeight = min(radius * inversesqrt(distance2), 1.0);

@@ -15,8 +15,8 @@ KX_INLINE vec3 spotEvaluate(LightHot light, vec3 receiverWs) {
     return sphereEvaluate(light, receiverWs) * spotCone(light, dirFromLight);
 }
 
-KX_INLINE EmitterOutline spotOutline(LightHot light, vec3 receiverWs) {
-    return sphereOutline(light, receiverWs);
+KX_INLINE EmitterOutline spotOutline(LightHot light, vec3 receiverWs, float alpha) {
+    return sphereOutline(light, receiverWs, alpha);
 }
 
 KX_INLINE LightSample spotSample(LightHot light, vec3 receiverWs, vec2 uv) {

@@ -39,7 +39,7 @@ struct TubeCap {
 
 // The arc of one end's silhouette circle between the two edges. `outward` points away from the other end;
 // `fromAxis` is the receiver's distance to the tube's axis, > radius.
-KX_INLINE TubeCap tubeCap(vec3 toEnd, vec3 outward, float fromAxis, float radius) {
+KX_INLINE TubeCap tubeCap(vec3 toEnd, vec3 outward, float fromAxis, float radius, int vertices) {
     float distance2 = dot(toEnd, toEnd);
     float invDistance = inversesqrt(distance2);
     vec3 dir = toEnd * invDistance;
@@ -50,7 +50,7 @@ KX_INLINE TubeCap tubeCap(vec3 toEnd, vec3 outward, float fromAxis, float radius
     float contactY = radius * sqrt(max(fromAxis * fromAxis - radius * radius, 0.0)) / fromAxis;
     float contactX = radius * radius * slant / fromAxis;
     float halfArc = angleFromCosSin(contactX, contactY);
-    float segments = float(KX_CAP_VERTICES - 1);
+    float segments = float(vertices - 1);
     float step_ = 2.0 * halfArc / segments;
     float wanted = segments * (step_ / max(sin(step_), 1.0e-6));
     wanted = step_ < 1.0e-3 ? segments : wanted;
@@ -63,7 +63,7 @@ KX_INLINE TubeCap tubeCap(vec3 toEnd, vec3 outward, float fromAxis, float radius
     return cap;
 }
 
-KX_INLINE EmitterOutline tubeOutline(LightHot light, vec3 receiverWs) {
+KX_INLINE EmitterOutline tubeOutline(LightHot light, vec3 receiverWs, float alpha) {
     vec3 axis = lightFrame(light)[0];
     float radius = tubeRadiusM(light);
     vec3 toCenter = light.positionWs - receiverWs;
@@ -80,11 +80,12 @@ KX_INLINE EmitterOutline tubeOutline(LightHot light, vec3 receiverWs) {
     if (fromAxis <= radius * 1.0001 || light.sizeM.y <= radius * 1.0e-4) {
         // Seen end-on the nearer end hides the rest; a tube without length is a sphere.
         float invNearest = inversesqrt(nearest2);
-        outline = coneOutline(toAxis * invNearest, min(radius * invNearest, 1.0));
+        outline = coneOutline(toAxis * invNearest, min(radius * invNearest, 1.0), alpha);
     } else {
         float invDistance = 1.0 / distanceM;
-        TubeCap a = tubeCap(toCenter - axis * light.sizeM.y, -axis, fromAxis, radius);
-        TubeCap b = tubeCap(toCenter + axis * light.sizeM.y, axis, fromAxis, radius);
+        int vertices = circleVertices(radius * invDistance, alpha) / 2;
+        TubeCap a = tubeCap(toCenter - axis * light.sizeM.y, -axis, fromAxis, radius, vertices);
+        TubeCap b = tubeCap(toCenter + axis * light.sizeM.y, axis, fromAxis, radius, vertices);
         outline = unlitOutline();
         outline.centerA = a.center * invDistance;
         outline.axisXA = a.axisX * invDistance;
@@ -96,8 +97,9 @@ KX_INLINE EmitterOutline tubeOutline(LightHot light, vec3 receiverWs) {
         outline.arcB = b.arc;
         outline.bulge = vec2(a.bulge, b.bulge);
         outline.endVertices = 1;
-        outline.countA = KX_CAP_VERTICES;
-        outline.count = 2 * KX_CAP_VERTICES;
+        outline.countA = vertices;
+        outline.count = 2 * vertices;
+        outline.sectors = KX_CIRCLE_SECTORS;
     }
     outline.dirWs = toCenter / distanceM;
     outline.angularRadius = min((light.sizeM.y + radius) / distanceM, 1.0);
@@ -135,7 +137,7 @@ KX_INLINE LightHit tubeIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     vec3 dir = transpose(frame) * dirWs;
     vec3 outside = from - vec3(clamp(from.x, -light.sizeM.y, light.sizeM.y), 0.0, 0.0);
     if (dot(outside, outside) <= radius * radius)
-        return noHit();
+        return noLightHit();
     // The cylinder first; beyond its ends the sphere of that end.
     float across2 = dir.y * dir.y + dir.z * dir.z;
     float end = dir.x < 0.0 ? light.sizeM.y : -light.sizeM.y;
@@ -144,7 +146,7 @@ KX_INLINE LightHit tubeIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
         float asideX = from.y * dir.z - from.z * dir.y;
         float inside2 = radius * radius * across2 - asideX * asideX;
         if (inside2 < 0.0)
-            return noHit();
+            return noLightHit();
         float x = from.x + dir.x * (middle - sqrt(inside2) / across2);
         end = clamp(x, -light.sizeM.y, light.sizeM.y);
     }
@@ -154,10 +156,10 @@ KX_INLINE LightHit tubeIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     vec3 aside = toEnd - dir * along;
     float inside2 = radius * radius - dot(aside, aside);
     if (inside2 < 0.0)
-        return noHit();
+        return noLightHit();
     float distanceM = along - sqrt(inside2);
     if (distanceM <= 0.0)
-        return noHit();
+        return noLightHit();
     vec3 normal = (dir * distanceM - toEnd) / radius;
     float x = clamp(from.x + dir.x * distanceM, -light.sizeM.y - radius, light.sizeM.y + radius);
     vec2 uv = vec2(saturate(0.5 + 0.5 * x / (light.sizeM.y + radius)), turnFromPlane(normal.y, normal.z));

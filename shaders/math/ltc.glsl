@@ -4,7 +4,7 @@
 //   worldFromLtc = [tangent, bitangent, normal] * turn(mirror + a t) * [a x, 0, 0; 0, a y, 0; a s, 0, 1]
 // with a = alpha. content/make/ltc_fit fits x, y, s, t per (noV, roughness); the includer provides
 // ltcLookup0(uv) = (x, y, s / sin(viewAngle), t / sin(viewAngle)) and
-// ltcLookup1(uv) = (amplitude, Fresnel offset, albedo for F0, albedo for F90), both linearly filtered.
+// ltcLookup1(uv) = (amplitude, albedo for F0, albedo for F90, the fit's error), both linearly filtered.
 #ifndef KILOLUX_MATH_LTC_GLSL
 #define KILOLUX_MATH_LTC_GLSL
 #include "approx.glsl"
@@ -28,7 +28,7 @@ KX_INLINE vec2 ltcUv(float noV, float roughness) {
 }
 
 // The lobe from its four parameters (ltcLookup0), in the frame whose columns are tangent (towards the viewer),
-// bitangent, normal. Amplitude, Fresnel offset and albedo are left 1, 0, 0.
+// bitangent, normal. Amplitude and albedo are left 1 and 0.
 KX_INLINE LtcLobe ltcLobeFromParameters(mat3 worldFromSurface, float noV, float alpha, vec4 parameters) {
     float sinView = sqrt(max(1.0 - noV * noV, 0.0));
     float tilt = parameters.w * alpha * sinView;
@@ -47,7 +47,6 @@ KX_INLINE LtcLobe ltcLobeFromParameters(mat3 worldFromSurface, float noV, float 
                         transpose(worldFromLobe);
     lobe.density = KX_INV_PI / (x * y);
     lobe.amplitude = 1.0;
-    lobe.fresnelOffset = 0.0;
     lobe.albedo = vec2(0.0);
     return lobe;
 }
@@ -56,13 +55,6 @@ KX_INLINE LtcLobe ltcLobeFromParameters(mat3 worldFromSurface, float noV, float 
 KX_INLINE float ltcShareAboveHorizon(LtcLobe lobe, vec3 normal) {
     vec3 plane = transpose(lobe.worldFromLtc) * normal;
     return 0.5 + 0.5 * plane.z * inversesqrt(max(dot(plane, plane), 1.0e-30));
-}
-
-// The mean direction, unit, of the part of the LTC above the surface's horizon, weighted as integrateOutline does.
-KX_INLINE vec3 ltcMeanDirAboveHorizon(LtcLobe lobe, vec3 normal) {
-    vec3 plane = transpose(lobe.worldFromLtc) * normal;
-    vec3 mean = vec3(0.0, 0.0, 1.0) + plane * inversesqrt(max(dot(plane, plane), 1.0e-30));
-    return normalize(lobe.worldFromLtc * mean);
 }
 
 // The LTC's density in a direction, 1/sr; integrates to 1 over the sphere. Not scaled by the amplitude.

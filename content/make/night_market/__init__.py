@@ -17,16 +17,16 @@ from . import materials as M
 
 LIGHT_COUNT = 941
 ASPECT = 16 / 9
-WIDE_EYE, WIDE_TARGET, WIDE_YFOV = (-1.15, 4.5, 9.2), (0.75, 1.75, -12.0), math.radians(43)
+WIDE_EYE, WIDE_TARGET, WIDE_YFOV = (-1.0, 3.35, 8.6), (0.7, 1.95, -12.0), math.radians(42)
 LEFT, RIGHT = math.pi / 2, -math.pi / 2  # turn of a stall that stands on that side of its lane
 PITCH_M = 3.25
 # Blue of the sky after sunset, soft: as wide as a third of the sky.
-SKY = Light("sky", "directional", 1.6, "lux", color=(0.22, 0.42, 1.0), angular_diameter_rad=0.7)
+SKY = Light("sky", "directional", 3.6, "lux", color=(0.22, 0.42, 1.0), angular_diameter_rad=0.7)
 
 
 class Market:
     def __init__(self):
-        self.scene = Scene("night market", 4.5)
+        self.scene = Scene("night market", 3.3)
         self.view = np.linalg.inv(look_at(WIDE_EYE, WIDE_TARGET))
         self.signs = F.Signs()
         self.models = {}
@@ -72,8 +72,8 @@ class Market:
                       rotate_y(math.pi), None, light, np.eye(4))
 
     def lantern_kind(self, kind):
-        light, width, height, ribs, flat = ((F.RED, 0.175, 0.15, 7, 0.34), (F.WARM, 0.152, 0.15, 6, 0.4),
-                                            (F.AMBER, 0.118, 0.2, 9, 0.72))[kind]
+        light, width, height, ribs, flat = ((F.RED, 0.25, 0.20, 9, 0.34), (F.WARM, 0.205, 0.20, 8, 0.4),
+                                            (F.AMBER, 0.148, 0.24, 11, 0.72))[kind]
         return self.shared(("lantern", kind), lambda: F.lantern(light.name, light, width, height, ribs, flat)), light
 
     def goods(self, kind, variant):
@@ -123,7 +123,7 @@ class Market:
         for x in (-1.32, 1.32):
             if r.random() < 0.8:
                 model, light = self.lantern_kind(int(r.integers(0, 3)))
-                drop = r.uniform(0.26, 0.36)
+                drop = r.uniform(0.30, 0.40)
                 self.lamp("lantern", node, translate(x, stalls.FRONT_Y - drop, stalls.AWNING_Z - 0.03), model, light)
         index = int(r.integers(0, 10))
         if r.random() < 0.5:
@@ -171,13 +171,15 @@ class Market:
         """Lanterns and bulbs on cables across the lanes."""
         group = self.scene.node("strings")
         lines, posts = [], set()
-        fairy = self.shared("fairy", lambda: F.bulb("string bulb", F.FAIRY, 0.0))
+        fairy = self.shared("fairy", lambda: F.bulb("string bulb", F.FAIRY, 0.0, (7, 4)))
         for k in range(16):
             z = 3.0 - 3.1 * k
             for x0, x1 in ((-4.8, 4.8), (4.8, 13.4), (-13.4, -4.8)):
                 main = x0 < 0 < x1
                 if not main and k % 2:
                     continue
+                if main and k < 2:  # these hang from poles out of the picture
+                    x0, x1 = -6.6, 6.6
                 start, end = (x0, 4.9, z), (x1, 4.9, z + (0.8 if k % 2 else -0.5))
                 if not (self.in_view(start) and self.in_view(end)) and not (main and k < 2):
                     continue
@@ -188,7 +190,7 @@ class Market:
                 for i, p in enumerate(street.hang(start, end, sag, steps)[1:-1]):
                     if i % 2 == 0:
                         model, light = self.lantern_kind(int(self.random.integers(0, 2)))
-                        self.lamp("lantern", group, translate(p[0], p[1] - 0.26, p[2]) @ rotate_y(
+                        self.lamp("lantern", group, translate(p[0], p[1] - 0.31, p[2]) @ rotate_y(
                             self.random.uniform(0, 6.28)), model, light)
                     elif main:
                         self.lamp("string bulb", group, translate(p[0], p[1] - 0.09, p[2]), fairy, F.FAIRY)
@@ -220,7 +222,7 @@ class Market:
 
     def fill(self):
         """String bulbs along awning edges until the market has its count of lights."""
-        bulb = self.shared("fairy", lambda: F.bulb("string bulb", F.FAIRY, 0.0))
+        bulb = self.shared("fairy", lambda: F.bulb("string bulb", F.FAIRY, 0.0, (7, 4)))
         wire = self.shared("wire", lambda: Model("wire").add(M.CABLE, sweep(
             [(-1.5, 2.36, 1.56), (0, 2.30, 1.57), (1.5, 2.36, 1.56)], 0.006, 4)))
         order = self.random.permutation(len(self.garlands))

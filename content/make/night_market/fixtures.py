@@ -13,7 +13,8 @@ from kit.transform import rotate_x, rotate_y, rotate_z, translate
 from . import materials as M
 
 DEG = math.pi / 180
-RANGE = 1.0  # scale of all ranges: sets how many lights reach a point
+SIGN_NIT = 42.0
+RANGE = 1.36  # scale of all ranges: sets how many lights reach a point
 
 
 def _range(metres):
@@ -25,14 +26,14 @@ def lantern_light(name, color, lumen, radius, reach):
 
 
 # Paper tints the lamp inside; lumens are what would leave white paper.
-RED = lantern_light("red lantern", (1.0, 0.20, 0.055), 260.0, 0.17, 5.2)
-WARM = lantern_light("warm lantern", (1.0, 0.52, 0.20), 190.0, 0.15, 5.2)
-AMBER = lantern_light("amber lantern", (1.0, 0.38, 0.09), 200.0, 0.12, 4.8)
-BULB = Light("bulb", "sphere", 330.0, "lumen", temperature_k=2700.0, range_m=_range(4.6), radius_m=0.038,
+RED = lantern_light("red lantern", (1.0, 0.22, 0.06), 190.0, 0.24, 5.2)
+WARM = lantern_light("warm lantern", (1.0, 0.52, 0.20), 140.0, 0.20, 5.2)
+AMBER = lantern_light("amber lantern", (1.0, 0.38, 0.09), 120.0, 0.15, 4.8)
+BULB = Light("bulb", "sphere", 450.0, "lumen", temperature_k=2700.0, range_m=_range(4.6), radius_m=0.04,
              ray_end_bias_m=0.025)
 FAIRY = Light("string bulb", "sphere", 75.0, "lumen", temperature_k=2500.0, range_m=_range(4.4), radius_m=0.028,
               ray_end_bias_m=0.02)
-SHADE = Light("shaded lamp", "spot", 420.0, "lumen", temperature_k=3000.0, range_m=_range(4.8), radius_m=0.04,
+SHADE = Light("shaded lamp", "spot", 600.0, "lumen", temperature_k=3000.0, range_m=_range(4.8), radius_m=0.04,
               inner_rad=30 * DEG, outer_rad=58 * DEG, ray_end_bias_m=0.03)
 PANEL = Light("panel lamp", "disk", 300.0, "lumen", temperature_k=4000.0, range_m=_range(4.6), width_m=0.3,
               ray_end_bias_m=0.02)
@@ -40,9 +41,9 @@ NEON_COLORS = {"pink": (1.0, 0.07, 0.30), "cyan": (0.06, 0.72, 1.0), "gold": (1.
 
 
 def neon_light(color, length):
-    """150 lm/m before the glass's colour."""
-    return Light(f"neon {color} {length:.2f} m", "tube", round(150.0 * length, 2), "lumen", color=NEON_COLORS[color],
-                 range_m=_range(4.6), radius_m=0.016, length_m=length, ray_end_bias_m=0.02)
+    """120 lm/m before the glass's colour."""
+    return Light(f"neon {color} {length:.2f} m", "tube", round(120.0 * length, 2), "lumen", color=NEON_COLORS[color],
+                 range_m=_range(4.6), radius_m=0.018, length_m=length, ray_end_bias_m=0.02)
 
 
 def glow(name, light, share=1.0, base=(0.0, 0.0, 0.0), picture=None):
@@ -60,27 +61,27 @@ def paper_picture(ribs, size=64):
 def lantern(name, light, width, height, ribs=7, flat=0.35):
     """Ribbed paper body around the origin with caps, a hook and a tassel."""
     model = Model(name)
-    count = 9
+    count = 8
     t = np.linspace(-1, 1, count)
     body = width * (flat + (1 - flat) * np.sqrt(np.maximum(0, 1 - np.abs(t) ** 2.4)))
     paper = Material(name + " paper", tuple(0.45 * c for c in light.color), 0.75, emission_nit=light.face_nit(1.15),
                      emission_map=paper_picture(ribs), double_sided=False)
-    model.add(paper, lathe(np.stack([body, t * height], -1), 16, 180, unit_uv=True))
+    model.add(paper, lathe(np.stack([body, t * height], -1), 14, 180, unit_uv=True))
     cap = width * flat * 1.06
     for sign in (-1, 1):
-        model.add(M.IRON, lathe([(0, -0.012), (cap, -0.012), (cap, 0.012), (0, 0.014)], 12, 40),
+        model.add(M.IRON, lathe([(cap, -0.012), (cap, 0.012), (0, 0.014)] if sign > 0 else [(0, -0.012), (cap, -0.012), (cap, 0.012)], 10, 40),
                   translate(0, sign * height, 0))
     model.add(M.CABLE, rod((0, height, 0), (0, height + 0.10, 0), 0.004, 4))
-    model.add(M.SCARVES[1], lathe([(0, -0.16), (0.016, -0.16), (0.012, -0.02), (0, 0)], 7, 60), translate(0, -height, 0))
+    model.add(M.SCARVES[1], lathe([(0, -0.16), (0.016, -0.16), (0.012, -0.02)], 5, 60), translate(0, -height, 0))
     return model
 
 
-def bulb(name, light, cord):
+def bulb(name, light, cord, detail=(10, 6)):
     """Glass bulb at the origin, socket and a straight cord above."""
     r = light.radius_m
     model = Model(name)
-    model.add(glow(name + " glass", light), sphere(r, 12, 7))
-    model.add(M.CABLE, lathe([(0, r * 0.8), (0.017, r * 0.8), (0.019, r + 0.05), (0.008, r + 0.065), (0, r + 0.065)], 8, 50))
+    model.add(glow(name + " glass", light), sphere(r, *detail))
+    model.add(M.CABLE, lathe([(0.017, r * 0.8), (0.019, r + 0.05), (0.008, r + 0.065)], 6, 50))
     if cord > 0:
         model.add(M.CABLE, rod((0, r + 0.06, 0), (0, cord, 0), 0.004, 4))
     return model
@@ -146,11 +147,11 @@ class Signs:
             width, height = (0.46, 0.46 * h / w) if vertical else (0.52 * w / h, 0.52)
             mean = picture.mean(axis=(0, 1))
             color = tuple(float(round(c, 4)) for c in mean / mean.max())
-            nit = round(95.0 * float(mean.max()), 2)
+            nit = round(SIGN_NIT * float(mean.max()), 2)
             name = f"sign {word.lower()}{' blade' if vertical else ''}"
             light = Light(name, "rect", nit, "nit", color=color, range_m=_range(5.2), width_m=round(width, 4),
                           height_m=round(height, 4), ray_end_bias_m=0.02)
-            face = Material(name + " face", (0.02, 0.02, 0.02), 0.25, emission_nit=(95.0,) * 3, emission_map=picture)
+            face = Material(name + " face", (0.02, 0.02, 0.02), 0.25, emission_nit=(SIGN_NIT,) * 3, emission_map=picture)
             model = Model(name)
             sides = (0.0, math.pi) if vertical else (0.0,)
             depth = 0.12 if vertical else 0.09

@@ -15,31 +15,30 @@ from . import materials as M
 TOP_Y = 0.92
 
 
-def crate(model, matrix, width=0.52, depth=0.36, height=0.16, seed=0):
-    """Slatted box; each slat a little off."""
+def crate(model, matrix, width=0.52, depth=0.36, height=0.16, seed=0, slats=2):
+    """Slatted box without a bottom; each slat a little off."""
     r = rng(seed)
     for s in (-1, 1):
         model.add(M.CRATE, bevel_box(0.02, height, depth, 0.003).with_uv_offset(r.random(), r.random()),
                   matrix @ translate(s * (width / 2 - 0.01), height / 2, 0))
-        for k in range(2):
-            slat = bevel_box(width, height * 0.40, 0.012, 0.003).with_uv_offset(r.random(), r.random())
-            model.add(M.CRATE, slat, matrix @ translate(0, height * (0.24 + 0.5 * k), s * depth / 2) @ rotate_z(
+        for k in range(slats):
+            slat = bevel_box(width, height * 0.82 / slats - 0.006, 0.012, 0.003).with_uv_offset(r.random(), r.random())
+            model.add(M.CRATE, slat, matrix @ translate(0, height * (0.08 + 0.86 * (k + 0.5) / slats), s * depth / 2) @ rotate_z(
                 r.uniform(-0.008, 0.008)))
-    model.add(M.CRATE, bevel_box(width - 0.03, 0.012, depth - 0.02, 0.003), matrix @ translate(0, 0.01, 0))
 
 
-FRUIT_SHAPE = {"orange": (0.040, 0.94), "apple": (0.041, 0.88), "lime": (0.029, 0.9), "lemon": (0.032, 1.3),
+FRUIT_SHAPE = {"orange": (0.040, 0.94), "apple": (0.041, 0.88), "lime": (0.034, 0.92), "lemon": (0.036, 1.25),
                "aubergine": (0.036, 2.3), "peach": (0.038, 0.95)}
 
 
 def fruit_crate(model, kind, matrix, seed, fine):
     """A full crate: a bed that hides the bottom, and the top layer piece by piece."""
     r = rng(seed)
-    crate(model, matrix, seed=seed)
+    crate(model, matrix, seed=seed, slats=2 if fine else 1)
     material = M.FRUIT[kind]
     radius, stretch = FRUIT_SHAPE[kind]
     model.add(material, bevel_box(0.46, 0.03, 0.31, 0.01), matrix @ translate(0, 0.105, 0))
-    body = sphere(radius, 16, 9) if fine else sphere(radius, 8, 5)
+    body = sphere(radius, 10, 6) if fine else sphere(radius, 7, 4)
     long = stretch > 1.5
     step_x, step_z = (radius * 4.6, radius * 2.1) if long else (radius * 2.02, radius * 1.9)
     nx, nz = int(0.48 / step_x), int(0.33 / step_z)
@@ -61,7 +60,7 @@ def fruit(name, kinds, seed, fine=False):
     for k in range(4):
         x = (k - 1.5) * 0.62
         fruit_crate(model, kinds[k % len(kinds)], translate(x, TOP_Y + 0.07, 0.40) @ rotate_x(0.22), seed + k, fine)
-        if k != 2:
+        if fine and k != 2:
             fruit_crate(model, kinds[(k + 2) % len(kinds)], translate(x, 0.48, 0.98) @ rotate_x(0.30), seed + 10 + k, fine)
             model.add(M.CRATE, bevel_box(0.5, 0.40, 0.30, 0.006).with_uv_offset(0.3 * k, 0), translate(x, 0.2, 0.99))
     for k in range(7):  # leaves and a hanging bunch
@@ -79,7 +78,7 @@ JAR = [(0, 0), (0.052, 0), (0.058, 0.01), (0.058, 0.12), (0.048, 0.14), (0.048, 
 def bottles(name, seed, fine=False):
     """Rows of bottles and jars on the counter and on two shelves behind."""
     model, r = Model(name), rng(seed)
-    segments = 16 if fine else 9
+    segments = 14 if fine else 7
     shapes = [lathe(p, segments, 30) for p in (BOTTLE, FLASK, JAR)]
     labels = [lathe([(q + 0.0008, lo), (q + 0.0008, hi)], segments) for q, lo, hi in ((0.038, 0.05, 0.12), (0.05, 0.03, 0.075),
                                                                                    (0.058, 0.03, 0.10))]
@@ -145,10 +144,11 @@ def _vase(radius, height, neck):
 def pottery(name, seed, fine=False):
     """Bowls in stacks, vases and jars in four glazes, on counter, shelf and ground."""
     model, r = Model(name), rng(seed)
-    segments = 24 if fine else 12
+    segments = 20 if fine else 9
+    nested = [lathe(_bowl(q, h)[1:5], segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
     bowls = [lathe(_bowl(q, h), segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
     vases = [lathe(_vase(q, h, n), segments, 50) for q, h, n in ((0.09, 0.26, 0.4), (0.075, 0.36, 0.3), (0.12, 0.2, 0.55))]
-    big = lathe(_vase(0.24, 0.62, 0.5), segments + 4, 50)
+    big = lathe(_vase(0.24, 0.62, 0.5), segments + 3, 50)
     for k in range(9):
         x = (k - 4) * 0.27 + r.uniform(-0.03, 0.03)
         glaze = M.GLAZES[int(r.integers(0, 4))]
@@ -156,8 +156,9 @@ def pottery(name, seed, fine=False):
             model.add(glaze, vases[int(r.integers(0, 3))], translate(x, TOP_Y, 0.40) @ scale(r.uniform(0.85, 1.05)))
             continue
         shape, y = int(r.integers(0, 3)), TOP_Y
-        for _ in range(int(r.integers(2, 5))):
-            model.add(glaze, bowls[shape], translate(x, y, 0.42) @ rotate_y(r.uniform(0, 6)) @ rotate_x(r.uniform(-0.03, 0.03)))
+        stack = int(r.integers(2, 5))
+        for level in range(stack):
+            model.add(glaze, (bowls if level == stack - 1 else nested)[shape], translate(x, y, 0.42) @ rotate_y(r.uniform(0, 6)) @ rotate_x(r.uniform(-0.03, 0.03)))
             y += 0.024
     for y in (1.32, 1.70):
         model.add(M.TIMBER, bevel_box(2.7, 0.024, 0.26, 0.004).with_uv_offset(y, 0.4), translate(0, y - 0.02, -0.70))
@@ -170,18 +171,18 @@ def pottery(name, seed, fine=False):
 
 
 def stool(model, material, matrix):
-    model.add(material, cylinder(0.16, 0.03, 16, 0.008), matrix @ translate(0, 0.42, 0))
+    model.add(material, cylinder(0.16, 0.03, 14, 0.008), matrix @ translate(0, 0.42, 0))
     for k in range(4):
         a = math.pi / 4 + k * math.pi / 2
         foot, top = (0.17 * math.cos(a), 0, 0.17 * math.sin(a)), (0.11 * math.cos(a), 0.425, 0.11 * math.sin(a))
-        model.add(material, sweep([foot, top], [0.018, 0.014], 6), matrix)
-    model.add(material, torus(0.135, 0.008, 16, 5), matrix @ translate(0, 0.2, 0))
+        model.add(material, sweep([foot, top], [0.018, 0.014], 4), matrix)
+    model.add(material, torus(0.135, 0.008, 12, 4), matrix @ translate(0, 0.2, 0))
 
 
 def noodles(name, seed, fine=False):
     """Stock pots with lids, bowls, chopstick jars; stools in front."""
     model, r = Model(name), rng(seed)
-    segments = 36 if fine else 18
+    segments = 32 if fine else 13
     pot = [(0, 0), (0.2, 0), (0.205, 0.006), (0.205, 0.30), (0.214, 0.304), (0.214, 0.312), (0.198, 0.314), (0.198, 0.25),
            (0, 0.245)]
     lid = [(0.0, 0.0), (0.21, 0.0), (0.21, 0.01), (0.12, 0.045), (0.03, 0.055), (0.026, 0.075), (0.03, 0.085), (0, 0.09)]
@@ -192,17 +193,19 @@ def noodles(name, seed, fine=False):
         for s in (-1, 1):
             ear = [(0, 0.22, 0.205), (-0.05, 0.23, 0.205), (-0.05, 0.23, 0.245), (0.05, 0.23, 0.245), (0.05, 0.23, 0.205)]
             model.add(M.STEEL, sweep(ear[1:], 0.007, 5), translate(x, TOP_Y, 0.30) @ rotate_y(s * math.pi / 2))
-    bowl = lathe(_bowl(0.095, 0.075), 20 if fine else 11, 45)
+    bowl = lathe(_bowl(0.095, 0.075), 18 if fine else 9, 45)
+    nested = lathe(_bowl(0.095, 0.075)[1:5], 18 if fine else 9, 45)
     for k in range(4):
         glaze = M.GLAZES[(k + seed) % 4]
         y = TOP_Y
-        for _ in range(int(r.integers(3, 7))):
-            model.add(glaze, bowl, translate(0.40 + 0.23 * k, y, 0.34) @ rotate_y(r.uniform(0, 6)))
+        stack = int(r.integers(3, 7))
+        for level in range(stack):
+            model.add(glaze, bowl if level == stack - 1 else nested, translate(0.40 + 0.23 * k, y, 0.34) @ rotate_y(r.uniform(0, 6)))
             y += 0.026
     for x in (0.45, 0.95):
         model.add(M.GLAZES[2], lathe([(0, 0), (0.035, 0), (0.038, 0.1), (0.032, 0.1), (0.03, 0.05)], 12, 40),
                   translate(x, TOP_Y, 0.62))
-        for _ in range(7):
+        for _ in range(5):
             tilt = rotate_y(r.uniform(0, 6.28)) @ rotate_x(r.uniform(0.05, 0.2))
             model.add(M.CRATE, bevel_box(0.006, 0.2, 0.006, 0.001), translate(x, TOP_Y + 0.12, 0.62) @ tilt)
     for k in range(4):

@@ -15,7 +15,7 @@ def wet_asphalt(size=1024, tile_m=11.0):
     puddle = smoothstep(0.20, 0.27, hollows)
     first, second, own = worley(size, 170, 303)
     grain = smoothstep(0.1, 0.6, first)
-    value = (0.10 + 0.05 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
+    value = (0.17 + 0.07 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
     cracks = smoothstep(0.05, 0.0, np.abs(fbm(size, 4, 5, 304))) * smoothstep(0.1, 0.5, fbm(size, 3, 2, 305) + 0.2)
     value = value * (1 - 0.5 * cracks)
     rough = mix(mix(np.full((size, size), 0.72), np.full((size, size), 0.27), damp), np.full((size, size), 0.10), puddle)

@@ -34,7 +34,7 @@ def body(name, paint, curtain, seed):
         y = awning_y(z) - 0.07
         model.add(M.TIMBER, bar((-1.44, y, z), (1.44, y, z), 0.05, 0.06, 0.005))
     # Counter: boarded front, thick top.
-    boards = 9
+    boards = 6
     for k in range(boards):
         w = 2.6 / boards
         board = bevel_box(w - 0.006, 0.82 + r.uniform(-0.008, 0.008), 0.025, 0.004)
@@ -45,7 +45,7 @@ def body(name, paint, curtain, seed):
     model.add(curtain, drape(2.76, 2.5, seed), translate(0, BACK_Y - 0.12, BACK_Z + 0.05))
     for x in (-1, 1):
         if r.random() < 0.75:
-            side = drape(1.5, r.uniform(1.2, 2.2), seed + 7 + x, 13, 6)
+            side = drape(1.5, r.uniform(1.2, 2.2), seed + 7 + x, 11, 5)
             model.add(curtain, side, translate(x * 1.40, 2.42, -0.06) @ _quarter(x))
     return model
 
@@ -55,7 +55,7 @@ def _quarter(sign):
     return rotate_y(sign * math.pi / 2)
 
 
-def drape(width, drop, seed, columns=25, rows=7):
+def drape(width, drop, seed, columns=21, rows=6):
     """Curtain that hangs from y = 0: regular folds, irregular hem."""
     r = rng(seed)
     u, v = np.meshgrid(np.linspace(-0.5, 0.5, columns), np.linspace(0, 1, rows), indexing="ij")
@@ -69,7 +69,7 @@ def drape(width, drop, seed, columns=25, rows=7):
 def awning(name, canvas, seed):
     """Canvas over the frame: sags between three rafters, ends in a scalloped valance."""
     model, r = Model(name), rng(seed)
-    columns, rows = 25, 7
+    columns, rows = 21, 6
     u, v = np.meshgrid(np.linspace(-0.5, 0.5, columns), np.linspace(0, 1, rows), indexing="ij")
     width = 3.04
     between = np.abs(np.sin(2 * math.pi * u)) * np.sin(math.pi * np.clip(v * 1.02, 0, 1))
@@ -77,7 +77,7 @@ def awning(name, canvas, seed):
     y = awning_y(z) + 0.035 - (0.055 + r.uniform(0, 0.05)) * between + 0.006 * np.sin(13 * u + 5 * v + seed)
     sheet = surface(np.stack([u * width, y, z], -1), np.stack([u * width, v * 2.45], -1), swap=True)
     model.add(canvas, sheet)
-    columns = 49
+    columns = 37
     u, v = np.meshgrid(np.linspace(-0.5, 0.5, columns), np.linspace(0, 1, 3), indexing="ij")
     scallop = 0.13 + 0.07 * np.abs(np.sin(math.pi * 6 * (u + 0.5)))
     wave = 0.018 * np.sin(2 * math.pi * 5 * u + seed) * v
@@ -96,7 +96,7 @@ def clutter(name, seed):
     y = 0.0
     for _ in range(int(r.integers(2, 5))):
         crate(model, translate(r.uniform(-0.03, 0.03), y, r.uniform(-0.03, 0.03)) @ _turn(r.uniform(-0.15, 0.15)), 0.52, 0.36, 0.26,
-              int(r.integers(0, 999)))
+              int(r.integers(0, 999)), 1)
         y += 0.265
     for k in range(2):
         size = r.uniform(0.28, 0.42)

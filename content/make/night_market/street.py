@@ -34,9 +34,9 @@ def window_model(name, pane):
     """1.0 x 1.3 m opening with its frame, sill and pane; faces +Z from z = 0."""
     model = Model(name)
     for x in (-0.5, 0.0, 0.5):
-        model.add(M.TIMBER, bevel_box(0.06, 1.3, 0.07, 0.005), translate(x, 0, 0.02))
+        model.add(M.TIMBER, quad(0.06, 1.3), translate(x, 0, 0.045))
     for y in (-0.62, 0.12, 0.62):
-        model.add(M.TIMBER, bevel_box(1.06, 0.06, 0.06, 0.005), translate(0, y, 0.02))
+        model.add(M.TIMBER, quad(1.06, 0.06), translate(0, y, 0.04))
     model.add(M.STONE, bevel_box(1.3, 0.09, 0.22, 0.008), translate(0, -0.70, 0.08))
     model.add(pane, quad(1.0, 1.26, unit_uv=True), translate(0, 0, 0.012))
     return model
@@ -97,9 +97,9 @@ class Houses:
 def poles(points, height):
     model = Model("poles")
     for x, z in points:
-        model.add(M.IRON, sweep([(x, 0, z), (x, height, z)], [0.045, 0.032], 8))
-        model.add(M.IRON, lathe([(0, 0), (0.05, 0), (0.04, 0.05), (0, 0.07)], 8), translate(x, height, z))
-        model.add(M.STONE, cylinder(0.14, 0.12, 12, 0.015), translate(x, 0, z))
+        model.add(M.IRON, sweep([(x, 0, z), (x, height, z)], [0.045, 0.032], 6))
+        model.add(M.IRON, lathe([(0.05, 0), (0.04, 0.05), (0, 0.07)], 6), translate(x, height, z))
+        model.add(M.STONE, cylinder(0.14, 0.12, 8, 0.015, False), translate(x, 0, z))
     return model
 
 
@@ -148,7 +148,7 @@ def gate_tubes():
     return tubes
 
 
-def night_sky(nit=0.9):
+def night_sky(nit=1.5):
     """Card far behind the houses: blue that is deeper above, a town's glow below."""
     size = 128
     y = np.linspace(1, 0, size)[:, None, None]
