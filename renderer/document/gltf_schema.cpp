@@ -138,8 +138,12 @@ constexpr Rule kOrthographicRules[] = {
 void normalizeInteger(Json& value) {
     if (!value.is_number_float()) return;
     const double number = value.get<double>();
-    if (number == std::floor(number) && std::abs(number) <= kMaxBytes)
+    if (number != std::floor(number) || std::abs(number) > kMaxBytes) return;
+    if (number < 0.0) {
         value = static_cast<std::int64_t>(number);
+    } else {
+        value = static_cast<std::uint64_t>(number);
+    }
 }
 
 class Checker {

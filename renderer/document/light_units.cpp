@@ -182,6 +182,11 @@ glm::dvec3 temperatureColor(double temperatureK) {
     return color / luminanceOf(color);
 }
 
+glm::dvec2 blackBodyChromaticity(double temperatureK) {
+    const glm::dvec3 xyz = blackBodyXyz(temperatureK);
+    return glm::dvec2(xyz) / (xyz.x + xyz.y + xyz.z);
+}
+
 glm::dvec3 emittedColor(const LightDef& def) {
     return def.temperatureK ? def.color * temperatureColor(*def.temperatureK) : def.color;
 }

@@ -36,9 +36,12 @@ double emitterAreaM2(const LightDef& def);
 // A black body's colour in linear Rec. 709 with luminance 1 and no negative channel, 1000 to 40000 K (clamped
 // to that). Planck's law is integrated over the colour matching functions as fitted by Wyman, Sloan and
 // Shirley, Simple Analytic Approximations to the CIE XYZ Color Matching Functions, JCGT 2(2) 2013;
-// chromaticity is within 0.004 in x and y of the tabulated 1931 observer. The locus is adapted (Bradford) so
-// that 6500 K is exactly white, as artists expect.
+// chromaticity is within 0.004 in x and y of the tabulated 1931 observer from 2000 K on, within 0.012 below.
+// The locus is adapted (Bradford) so that 6500 K is exactly white, as artists expect.
 glm::dvec3 temperatureColor(double temperatureK);
+
+// The CIE 1931 chromaticity (x, y) that temperatureColor starts from, before adaptation.
+glm::dvec2 blackBodyChromaticity(double temperatureK);
 
 // Tint times temperature: what the intensity is multiplied by, per channel.
 glm::dvec3 emittedColor(const LightDef& def);
