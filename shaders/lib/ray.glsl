@@ -1,6 +1,7 @@
 // Rays and hits, and how a ray leaves a surface; in the subset that C++ compiles too.
 #ifndef KILOLUX_RAY_GLSL
 #define KILOLUX_RAY_GLSL
+#include "../math/prelude.glsl"
 
 // Points origin + t * dir for tMinM <= t < tMaxM. `dir` is unit length, so t is metres; tMinM >= 0.
 struct Ray {

@@ -3,6 +3,7 @@
 // does (5 to 20 % on lavapipe with two threads). In the subset that C++ compiles too.
 #ifndef KILOLUX_TILE_ORDER_GLSL
 #define KILOLUX_TILE_ORDER_GLSL
+#include "../math/prelude.glsl"
 
 // Tile of workgroup `group` of tileCount.x * tileCount.y, so that each of `chunks` (at least 1) runs of
 // workgroups gets every chunks-th tile. A bijection for any sizes; the identity for one chunk.

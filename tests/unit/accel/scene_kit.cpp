@@ -194,10 +194,49 @@ ExactHit nearestExact(const std::vector<SoupTriangle>& triangles, const TestRay&
     return best;
 }
 
-EmbreeScene::EmbreeScene(const std::vector<SoupTriangle>& triangles) {
-    device_ = rtcNewDevice(nullptr);
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+EmbreeScene::EmbreeScene(const std::vector<SoupTriangle>& triangles)
+    : device_(rtcNewDevice(nullptr)), scene_(newScene()) {
+    attachTriangles(scene_, triangles);
+    rtcCommitScene(scene_);
+}
+
+EmbreeScene::EmbreeScene(const Scene& scene, const std::vector<Instance>& instances, const std::vector<bool>& moving)
+    : device_(rtcNewDevice(nullptr)), scene_(newScene()) {
+    std::vector<SoupTriangle> fixed;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        if (instances[i].role == SurfaceRole::Absent)
+            continue;
+        if (moving.empty() || !moving[i]) {
+            appendWorldTriangles(scene, instances[i], glm::dvec3(0.0), fixed);
+            continue;
+        }
+        std::vector<SoupTriangle> local;
+        appendLocalTriangles(scene, instances[i], local);
+        RTCScene inner = newScene();
+        attachTriangles(inner, local);
+        rtcCommitScene(inner);
+        RTCGeometry instance = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(instance, inner);
+        const glm::mat4x3 transform(glm::mat4(instances[i].worldFromLocal));
+        rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &transform);
+        rtcCommitGeometry(instance);
+        rtcAttachGeometry(scene_, instance);
+        rtcReleaseGeometry(instance);
+        rtcReleaseScene(inner);
+    }
+    attachTriangles(scene_, fixed);
+    rtcCommitScene(scene_);
+}
+
+RTCScene EmbreeScene::newScene() const {
+    RTCScene scene = rtcNewScene(device_);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    return scene;
+}
+
+void EmbreeScene::attachTriangles(RTCScene scene, const std::vector<SoupTriangle>& triangles) const {
+    if (triangles.empty())
+        return;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), triangles.size() * 3));
@@ -208,9 +247,8 @@ EmbreeScene::EmbreeScene(const std::vector<SoupTriangle>& triangles) {
         indices[corner] = std::uint32_t(corner);
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
+    rtcAttachGeometry(scene, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_);
 }
 
 EmbreeScene::~EmbreeScene() {

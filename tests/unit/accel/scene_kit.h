@@ -61,6 +61,8 @@ ExactHit nearestExact(const std::vector<SoupTriangle>& triangles, const TestRay&
 class EmbreeScene {
   public:
     explicit EmbreeScene(const std::vector<SoupTriangle>& triangles);
+    // With the instancing of buildWorld(): static triangles in one mesh, each moving instance an Embree instance.
+    EmbreeScene(const Scene& scene, const std::vector<Instance>& instances, const std::vector<bool>& moving);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -69,6 +71,9 @@ class EmbreeScene {
     RTCScene handle() const { return scene_; }
 
   private:
+    RTCScene newScene() const;
+    void attachTriangles(RTCScene scene, const std::vector<SoupTriangle>& triangles) const;
+
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;
 };

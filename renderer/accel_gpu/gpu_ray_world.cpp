@@ -1,0 +1,70 @@
+// Uploads a RayWorld.
+#include "renderer/accel_gpu/gpu_ray_world.h"
+
+namespace kilolux {
+
+namespace {
+
+template<typename T>
+gpu::Buffer texelBuffer(gpu::Device& device, const char* name, VkFormat format, const std::vector<T>& data) {
+    gpu::BufferDesc desc;
+    desc.name = name;
+    desc.bytes = data.size() * sizeof(T);
+    desc.usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    desc.cause = "ray world";
+    desc.texelFormat = format;
+    gpu::Buffer buffer(device, desc);
+    buffer.upload(data);
+    return buffer;
+}
+
+constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT;
+constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
+constexpr VkFormat kUint2 = VK_FORMAT_R32G32_UINT;
+
+} // namespace
+
+GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world)
+    : hasAlpha_(world.hasAlpha()), nodes_(texelBuffer(device, "traceNodes", kUint4, world.nodes)),
+      pairs_(texelBuffer(device, "tracePairs", kFloat4, world.pairs)),
+      pairIds_(texelBuffer(device, "tracePairIds", kUint2, world.pairIds)),
+      entries_(texelBuffer(device, "traceEntries", kUint4, world.entries)),
+      instances_(texelBuffer(device, "traceInstances", kUint2, world.instances)),
+      alphaTexels_(texelBuffer(device, "alphaTexels", VK_FORMAT_R8_UNORM, world.alpha.texels)),
+      alphaRecords_(texelBuffer(device, "alphaRecords", kUint4, world.alpha.records)),
+      alphaTriangles_(texelBuffer(device, "alphaTriangles", kUint4, world.alpha.triangles)) {}
+
+void GpuRayWorld::update(const RayWorld& world) {
+    entries_.upload(world.entries);
+    if (world.topNodeCapacity > 0)
+        nodes_.upload(std::as_bytes(std::span(world.nodes.data(), world.topNodeCapacity)));
+}
+
+std::vector<gpu::PassUse> GpuRayWorld::alphaUses() {
+    return {{"traceInstances"}, {"alphaTexels"}, {"alphaRecords"}, {"alphaTriangles"}};
+}
+
+gpu::Bindings GpuRayWorld::alphaBindings() const {
+    return {{"traceInstances", instances_},
+            {"alphaTexels", alphaTexels_},
+            {"alphaRecords", alphaRecords_},
+            {"alphaTriangles", alphaTriangles_}};
+}
+
+std::vector<gpu::PassUse> GpuRayWorld::traceUses() {
+    std::vector<gpu::PassUse> uses = alphaUses();
+    for (const char* name : {"traceNodes", "tracePairs", "tracePairIds", "traceEntries"})
+        uses.push_back({name});
+    return uses;
+}
+
+gpu::Bindings GpuRayWorld::traceBindings() const {
+    gpu::Bindings bindings = alphaBindings();
+    bindings.push_back({"traceNodes", nodes_});
+    bindings.push_back({"tracePairs", pairs_});
+    bindings.push_back({"tracePairIds", pairIds_});
+    bindings.push_back({"traceEntries", entries_});
+    return bindings;
+}
+
+} // namespace kilolux

@@ -1,0 +1,33 @@
+// A RayWorld in device buffers, bound under the names of shaders/lib/trace.glsl and alpha.glsl.
+#pragma once
+
+#include "renderer/accel/ray_world.h"
+#include "renderer/gpu/pass.h"
+
+#include <vector>
+
+namespace kilolux {
+
+class GpuRayWorld {
+  public:
+    GpuRayWorld(gpu::Device& device, const RayWorld& world);
+
+    // After updateInstances(): the entries and the top level, nothing else. The device must be idle.
+    void update(const RayWorld& world);
+
+    // What a pass that includes lib/trace.glsl declares and binds, beside its own.
+    static std::vector<gpu::PassUse> traceUses();
+    gpu::Bindings traceBindings() const;
+    // The same for one that includes lib/alpha.glsl alone.
+    static std::vector<gpu::PassUse> alphaUses();
+    gpu::Bindings alphaBindings() const;
+
+    bool hasAlpha() const { return hasAlpha_; } // the value for FEATURE_ALPHA_MASK
+
+  private:
+    bool hasAlpha_ = false;
+    gpu::Buffer nodes_, pairs_, pairIds_, entries_, instances_;
+    gpu::Buffer alphaTexels_, alphaRecords_, alphaTriangles_;
+};
+
+} // namespace kilolux
