@@ -9,7 +9,8 @@ from .mesh import Mesh, merge
 
 def bevel_box(sx, sy, sz, bevel=0.004):
     """Box centred at the origin. Face corners are pulled in by the bevel; strips and corners between them
-    share the faces' vertices, so the shading runs smoothly around each edge: 24 vertices, 44 triangles."""
+    share the faces' vertices, so the shading runs smoothly around each edge: 24 vertices, 44 triangles.
+    Without a bevel (things that are only seen from afar): 24 vertices, 12 triangles."""
     half = np.array([sx, sy, sz]) / 2
     b = min(bevel, 0.49 * min(sx, sy, sz))
     positions, normals, uvs, index = [], [], [], {}
@@ -48,7 +49,7 @@ def bevel_box(sx, sy, sz, bevel=0.004):
                 s[axis], s[o1], s[o2] = side, a, c
                 ring.append(index[(axis, tuple(s))])
             polygon(ring)
-        for a in (-1, 1):  # the four edges that run along this axis
+        for a in (-1, 1) if b > 0 else ():  # the four edges that run along this axis
             for c in (-1, 1):
                 lo, hi = [0, 0, 0], [0, 0, 0]
                 lo[axis], hi[axis] = -1, 1
@@ -56,7 +57,7 @@ def bevel_box(sx, sy, sz, bevel=0.004):
                 lo[o2] = hi[o2] = c
                 polygon([index[(o1, tuple(lo))], index[(o1, tuple(hi))], index[(o2, tuple(hi))],
                          index[(o2, tuple(lo))]])
-    for corner in np.ndindex(2, 2, 2):
+    for corner in np.ndindex(2, 2, 2) if b > 0 else ():
         s = tuple(np.array(corner) * 2 - 1)
         polygon([index[(0, s)], index[(1, s)], index[(2, s)]])
     return Mesh(positions, normals, uvs, triangles)

@@ -17,9 +17,10 @@ from . import materials as M
 
 LIGHT_COUNT = 941
 ASPECT = 16 / 9
-WIDE_EYE, WIDE_TARGET, WIDE_YFOV = (-1.0, 3.35, 8.6), (0.7, 1.95, -12.0), math.radians(42)
+WIDE_EYE, WIDE_TARGET, WIDE_YFOV = (-1.0, 3.35, 8.6), (0.7, 1.6, -12.0), math.radians(42)
 LEFT, RIGHT = math.pi / 2, -math.pi / 2  # turn of a stall that stands on that side of its lane
 PITCH_M = 3.25
+FAR_Z = -15.0  # beyond it, models with less detail
 # Blue of the sky after sunset, soft: as wide as a third of the sky.
 SKY = Light("sky", "directional", 3.6, "lux", color=(0.22, 0.42, 1.0), angular_diameter_rad=0.7)
 
@@ -71,23 +72,24 @@ class Market:
             self.lamp(light.name + " light", parent, matrix @ rotate_y(turn) @ translate(0, 0, depth / 2 + 0.012) @
                       rotate_y(math.pi), None, light, np.eye(4))
 
-    def lantern_kind(self, kind):
+    def lantern_kind(self, kind, near):
         light, width, height, ribs, flat = ((F.RED, 0.25, 0.20, 9, 0.34), (F.WARM, 0.205, 0.20, 8, 0.4),
                                             (F.AMBER, 0.148, 0.24, 11, 0.72))[kind]
-        return self.shared(("lantern", kind), lambda: F.lantern(light.name, light, width, height, ribs, flat)), light
+        name = light.name if near else light.name + " far"
+        return self.shared(("lantern", kind, near), lambda: F.lantern(name, light, width, height, ribs, flat, near)), light
 
-    def goods(self, kind, variant):
-        key = ("goods", kind, variant)
+    def goods(self, kind, variant, detail):
+        key = ("goods", kind, variant, detail)
         makers = {"fruit": lambda: goods.fruit(f"fruit {variant}", (("orange", "apple", "lime", "peach"),
                                                                     ("lemon", "aubergine", "apple", "orange"))[variant % 2],
-                                               50 + variant, variant == 0),
-                  "bottles": lambda: goods.bottles(f"bottles {variant}", 60 + variant, variant == 0),
-                  "cloth": lambda: goods.cloth(f"cloth {variant}", 70 + variant),
-                  "pottery": lambda: goods.pottery(f"pottery {variant}", 80 + variant, variant == 0),
-                  "noodles": lambda: goods.noodles(f"noodles {variant}", 90 + variant, variant == 0)}
+                                               50 + variant, detail),
+                  "bottles": lambda: goods.bottles(f"bottles {variant}", 60 + variant, detail),
+                  "cloth": lambda: goods.cloth(f"cloth {variant}", 70 + variant, detail),
+                  "pottery": lambda: goods.pottery(f"pottery {variant}", 80 + variant, detail),
+                  "noodles": lambda: goods.noodles(f"noodles {variant}", 90 + variant, detail)}
         return self.shared(key, makers[kind])
 
-    def stall(self, name, place, kind, variant, near):
+    def stall(self, name, place, kind, detail):
         """One stall with everything on it; nothing when part of it would leave the wide view."""
         r = self.random
         corners = [(x, y, z) for x in (-1.5, 1.5) for y in (0.9, 2.9) for z in (-0.9, 1.5)]
@@ -95,22 +97,23 @@ class Market:
             return
         look = int(r.integers(0, 5))
         node = self.scene.node(name, self.group, place)
-        body = self.shared(("body", look), lambda: stalls.body(f"stall {look}", M.PAINTED[look], M.CURTAINS[look % 3], 400 + look))
+        near = detail > 0
+        body = self.shared(("body", look, near), lambda: stalls.body(
+            f"stall {look}{'' if near else ' far'}", M.PAINTED[look], M.CURTAINS[look % 3], 400 + look, near))
         self.scene.node("body", node, model=body)
         cover = int(r.integers(0, 6))
         awning = self.shared(("awning", cover), lambda: stalls.awning(f"awning {cover}", M.AWNINGS[cover], 500 + cover))
         self.scene.node("awning", node, model=awning)
-        self.scene.node("goods", node, model=self.goods(kind, variant))
+        self.scene.node("goods", node, model=self.goods(kind, int(r.integers(0, 2)), detail))
         if r.random() < 0.55:
             pile = int(r.integers(0, 3))
-            self.scene.node("clutter", node, translate(r.uniform(-0.3, 0.3), 0, -1.15) if not near else translate(
-                1.78, 0, 0.25 + r.uniform(-0.2, 0.3)), self.shared(("clutter", pile), lambda: stalls.clutter(f"clutter {pile}", 600 + pile)))
-        self.stall_lights(node)
+            self.scene.node("clutter", node, translate(1.78, 0, 0.25 + r.uniform(-0.2, 0.3)), self.shared(("clutter", pile), lambda: stalls.clutter(f"clutter {pile}", 600 + pile)))
+        self.stall_lights(node, near)
         self.garlands.append(node)
 
-    def stall_lights(self, node):
+    def stall_lights(self, node, near):
         r = self.random
-        bulb = self.shared("bulb", lambda: F.bulb("bulb", F.BULB, 0.34))
+        bulb = self.shared("bulb", lambda: F.bulb("bulb", F.BULB, 0.34, (8, 5)))
         for x in (-0.9, 0.0, 0.9):
             self.lamp("bulb", node, translate(x + r.uniform(-0.12, 0.12), 2.02 + r.uniform(-0.06, 0.06), 0.30), bulb, F.BULB)
         choice = r.random()
@@ -122,7 +125,7 @@ class Market:
                 "panel", lambda: F.panel_lamp(F.PANEL, 0.2)), F.PANEL, F.down())
         for x in (-1.32, 1.32):
             if r.random() < 0.8:
-                model, light = self.lantern_kind(int(r.integers(0, 3)))
+                model, light = self.lantern_kind(int(r.integers(0, 3)), near)
                 drop = r.uniform(0.30, 0.40)
                 self.lamp("lantern", node, translate(x, stalls.FRONT_Y - drop, stalls.AWNING_Z - 0.03), model, light)
         index = int(r.integers(0, 10))
@@ -150,14 +153,12 @@ class Market:
             order = [k % 5 for k in range(count)]
             for k in range(count):
                 z = -0.6 - PITCH_M * k - (1.1 if number > 1 else 0.0)
-                if abs(z + 22.4) < 1.2 and number < 2:
-                    z -= 0.0
                 wobble = self.random.uniform(-0.02, 0.02)
                 place = (translate(lane + side * (offset + self.random.uniform(-0.06, 0.06)), 0, z) @
                          rotate_y((LEFT if side < 0 else RIGHT) + wobble))
                 kind = kinds[(order[k] * 2 + number) % 5]
-                variant = 0 if number < 2 and k < 4 else 1 + int(self.random.integers(0, 2))
-                self.stall(f"stall {number + 1}.{k + 1}", place, kind, variant, number < 2)
+                detail = 0 if z < FAR_Z else 2 if number < 2 and k < 3 else 1
+                self.stall(f"stall {number + 1}.{k + 1}", place, kind, detail)
 
     def gates(self):
         group = self.scene.node("gates")
@@ -189,7 +190,7 @@ class Market:
                 steps = 15 if main else 13
                 for i, p in enumerate(street.hang(start, end, sag, steps)[1:-1]):
                     if i % 2 == 0:
-                        model, light = self.lantern_kind(int(self.random.integers(0, 2)))
+                        model, light = self.lantern_kind(int(self.random.integers(0, 2)), z > FAR_Z)
                         self.lamp("lantern", group, translate(p[0], p[1] - 0.31, p[2]) @ rotate_y(
                             self.random.uniform(0, 6.28)), model, light)
                     elif main:

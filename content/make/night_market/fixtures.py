@@ -26,9 +26,9 @@ def lantern_light(name, color, lumen, radius, reach):
 
 
 # Paper tints the lamp inside; lumens are what would leave white paper.
-RED = lantern_light("red lantern", (1.0, 0.22, 0.06), 190.0, 0.24, 5.2)
-WARM = lantern_light("warm lantern", (1.0, 0.52, 0.20), 140.0, 0.20, 5.2)
-AMBER = lantern_light("amber lantern", (1.0, 0.38, 0.09), 120.0, 0.15, 4.8)
+RED = lantern_light("red lantern", (1.0, 0.22, 0.06), 80.0, 0.24, 5.2)
+WARM = lantern_light("warm lantern", (1.0, 0.52, 0.20), 62.0, 0.20, 5.2)
+AMBER = lantern_light("amber lantern", (1.0, 0.38, 0.09), 60.0, 0.15, 4.8)
 BULB = Light("bulb", "sphere", 450.0, "lumen", temperature_k=2700.0, range_m=_range(4.6), radius_m=0.04,
              ray_end_bias_m=0.025)
 FAIRY = Light("string bulb", "sphere", 75.0, "lumen", temperature_k=2500.0, range_m=_range(4.4), radius_m=0.028,
@@ -58,18 +58,17 @@ def paper_picture(ribs, size=64):
     return np.repeat((rib * belly)[:, :, None] * np.ones((1, 4, 3)), 1, 1)
 
 
-def lantern(name, light, width, height, ribs=7, flat=0.35):
+def lantern(name, light, width, height, ribs, flat, near):
     """Ribbed paper body around the origin with caps, a hook and a tassel."""
     model = Model(name)
-    count = 8
-    t = np.linspace(-1, 1, count)
+    t = np.linspace(-1, 1, 8 if near else 6)
     body = width * (flat + (1 - flat) * np.sqrt(np.maximum(0, 1 - np.abs(t) ** 2.4)))
-    paper = Material(name + " paper", tuple(0.45 * c for c in light.color), 0.75, emission_nit=light.face_nit(1.15),
+    paper = Material(name + " paper", tuple(0.45 * c for c in light.color), 0.75, emission_nit=light.face_nit(1.1),
                      emission_map=paper_picture(ribs), double_sided=False)
-    model.add(paper, lathe(np.stack([body, t * height], -1), 14, 180, unit_uv=True))
+    model.add(paper, lathe(np.stack([body, t * height], -1), 14 if near else 9, 180, unit_uv=True))
     cap = width * flat * 1.06
     for sign in (-1, 1):
-        model.add(M.IRON, lathe([(cap, -0.012), (cap, 0.012), (0, 0.014)] if sign > 0 else [(0, -0.012), (cap, -0.012), (cap, 0.012)], 10, 40),
+        model.add(M.IRON, lathe([(cap, -0.012), (cap, 0.012), (0, 0.014)] if sign > 0 else [(0, -0.012), (cap, -0.012), (cap, 0.012)], 8 if near else 5, 40),
                   translate(0, sign * height, 0))
     model.add(M.CABLE, rod((0, height, 0), (0, height + 0.10, 0), 0.004, 4))
     model.add(M.SCARVES[1], lathe([(0, -0.16), (0.016, -0.16), (0.012, -0.02)], 5, 60), translate(0, -height, 0))

@@ -1,5 +1,6 @@
 """What the stalls sell, each a model in the stall's frame: the counter's top is y = 0.92 between x = -1.25 and
-1.25, z = 0.05 and 0.75; the customer stands at +Z."""
+1.25, z = 0.05 and 0.75; the customer stands at +Z. `detail` is 2 beside the close cameras, 1 along the first half
+of the lanes, 0 beyond."""
 import math
 
 import numpy as np
@@ -15,14 +16,14 @@ from . import materials as M
 TOP_Y = 0.92
 
 
-def crate(model, matrix, width=0.52, depth=0.36, height=0.16, seed=0, slats=2):
+def crate(model, matrix, width=0.52, depth=0.36, height=0.16, seed=0, slats=2, bevel=0.003):
     """Slatted box without a bottom; each slat a little off."""
     r = rng(seed)
     for s in (-1, 1):
-        model.add(M.CRATE, bevel_box(0.02, height, depth, 0.003).with_uv_offset(r.random(), r.random()),
+        model.add(M.CRATE, bevel_box(0.02, height, depth, bevel).with_uv_offset(r.random(), r.random()),
                   matrix @ translate(s * (width / 2 - 0.01), height / 2, 0))
         for k in range(slats):
-            slat = bevel_box(width, height * 0.82 / slats - 0.006, 0.012, 0.003).with_uv_offset(r.random(), r.random())
+            slat = bevel_box(width, height * 0.82 / slats - 0.006, 0.012, bevel).with_uv_offset(r.random(), r.random())
             model.add(M.CRATE, slat, matrix @ translate(0, height * (0.08 + 0.86 * (k + 0.5) / slats), s * depth / 2) @ rotate_z(
                 r.uniform(-0.008, 0.008)))
 
@@ -31,14 +32,14 @@ FRUIT_SHAPE = {"orange": (0.040, 0.94), "apple": (0.041, 0.88), "lime": (0.034, 
                "aubergine": (0.036, 2.3), "peach": (0.038, 0.95)}
 
 
-def fruit_crate(model, kind, matrix, seed, fine):
+def fruit_crate(model, kind, matrix, seed, detail):
     """A full crate: a bed that hides the bottom, and the top layer piece by piece."""
     r = rng(seed)
-    crate(model, matrix, seed=seed, slats=2 if fine else 1)
+    crate(model, matrix, seed=seed, slats=2 if detail == 2 else 1, bevel=0.003 if detail else 0)
     material = M.FRUIT[kind]
     radius, stretch = FRUIT_SHAPE[kind]
     model.add(material, bevel_box(0.46, 0.03, 0.31, 0.01), matrix @ translate(0, 0.105, 0))
-    body = sphere(radius, 10, 6) if fine else sphere(radius, 7, 4)
+    body = sphere(radius, *((6, 3), (7, 4), (10, 6))[detail])
     long = stretch > 1.5
     step_x, step_z = (radius * 4.6, radius * 2.1) if long else (radius * 2.02, radius * 1.9)
     nx, nz = int(0.48 / step_x), int(0.33 / step_z)
@@ -54,14 +55,14 @@ def fruit_crate(model, kind, matrix, seed, fine):
                 0, 6.28)) @ turn @ scale(size, size * stretch, size))
 
 
-def fruit(name, kinds, seed, fine=False):
+def fruit(name, kinds, seed, detail):
     """Crates on the counter and a second row on a stand before it, tilted to the customer."""
     model = Model(name)
     for k in range(4):
         x = (k - 1.5) * 0.62
-        fruit_crate(model, kinds[k % len(kinds)], translate(x, TOP_Y + 0.07, 0.40) @ rotate_x(0.22), seed + k, fine)
-        if fine and k != 2:
-            fruit_crate(model, kinds[(k + 2) % len(kinds)], translate(x, 0.48, 0.98) @ rotate_x(0.30), seed + 10 + k, fine)
+        fruit_crate(model, kinds[k % len(kinds)], translate(x, TOP_Y + 0.07, 0.40) @ rotate_x(0.22), seed + k, detail)
+        if detail == 2 and k != 2:
+            fruit_crate(model, kinds[(k + 2) % len(kinds)], translate(x, 0.48, 0.98) @ rotate_x(0.30), seed + 10 + k, detail)
             model.add(M.CRATE, bevel_box(0.5, 0.40, 0.30, 0.006).with_uv_offset(0.3 * k, 0), translate(x, 0.2, 0.99))
     for k in range(7):  # leaves and a hanging bunch
         model.add(M.LEAF, leaf_mesh(0.22, 0.12, across=2, along=5), translate(-1.15 + 0.38 * k, TOP_Y + 0.16, 0.16) @ rotate_y(
@@ -75,10 +76,10 @@ FLASK = [(0, 0), (0.045, 0), (0.05, 0.01), (0.05, 0.09), (0.035, 0.125), (0.014,
 JAR = [(0, 0), (0.052, 0), (0.058, 0.01), (0.058, 0.12), (0.048, 0.14), (0.048, 0.16), (0, 0.165)]
 
 
-def bottles(name, seed, fine=False):
+def bottles(name, seed, detail):
     """Rows of bottles and jars on the counter and on two shelves behind."""
     model, r = Model(name), rng(seed)
-    segments = 14 if fine else 7
+    segments = (5, 7, 14)[detail]
     shapes = [lathe(p, segments, 30) for p in (BOTTLE, FLASK, JAR)]
     labels = [lathe([(q + 0.0008, lo), (q + 0.0008, hi)], segments) for q, lo, hi in ((0.038, 0.05, 0.12), (0.05, 0.03, 0.075),
                                                                                    (0.058, 0.03, 0.10))]
@@ -90,7 +91,7 @@ def bottles(name, seed, fine=False):
             x = (k - (count - 1) / 2) * 2.3 / count + r.uniform(-0.015, 0.015)
             m = translate(x, y, z + r.uniform(-0.02, 0.02)) @ rotate_y(r.uniform(0, 6.28)) @ scale(r.uniform(0.92, 1.08))
             model.add(M.BOTTLES[int(r.integers(0, 5))], shapes[run], m)
-            if r.random() < 0.6:
+            if detail and r.random() < 0.6:
                 model.add(M.LABEL, labels[run], m)
     model.add(M.TIMBER, bevel_box(2.4, 0.03, 0.14, 0.004), translate(0, TOP_Y + 0.015, 0.33))
     for y in (1.30, 1.66):
@@ -109,7 +110,7 @@ def hanging_cloth(width, drop, seed, columns=9, rows=6):
     return surface(np.stack([x, -v * drop, z], -1), np.stack([u * width, v * drop], -1), swap=True)
 
 
-def cloth(name, seed):
+def cloth(name, seed, detail):
     """Scarves on two rails, folded piles on the counter."""
     model, r = Model(name), rng(seed)
     for rail, (y, z) in enumerate(((2.06, 0.78), (2.12, -0.25))):
@@ -117,7 +118,8 @@ def cloth(name, seed):
         for k in range(7 if rail else 5):
             x = (k - (3 if rail else 2)) * (0.38 if rail else 0.55) + r.uniform(-0.05, 0.05)
             drop = r.uniform(0.75, 1.05) if rail else r.uniform(0.42, 0.62)
-            model.add(M.SCARVES[int(r.integers(0, 6))], hanging_cloth(r.uniform(0.26, 0.34), drop, seed * 31 + k + 9 * rail),
+            model.add(M.SCARVES[int(r.integers(0, 6))], hanging_cloth(r.uniform(0.26, 0.34), drop, seed * 31 + k + 9 * rail,
+                                                                                 9 if detail else 6, 6 if detail else 3),
                       translate(x, y + 0.026, z))
     for k in range(6):
         x, y = (k - 2.5) * 0.4, TOP_Y
@@ -141,10 +143,10 @@ def _vase(radius, height, neck):
     return out + [(out[-1][0] - 0.008, height), (out[-1][0] - 0.014, height * 0.85)]
 
 
-def pottery(name, seed, fine=False):
+def pottery(name, seed, detail):
     """Bowls in stacks, vases and jars in four glazes, on counter, shelf and ground."""
     model, r = Model(name), rng(seed)
-    segments = 20 if fine else 9
+    segments = (6, 9, 20)[detail]
     nested = [lathe(_bowl(q, h)[1:5], segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
     bowls = [lathe(_bowl(q, h), segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
     vases = [lathe(_vase(q, h, n), segments, 50) for q, h, n in ((0.09, 0.26, 0.4), (0.075, 0.36, 0.3), (0.12, 0.2, 0.55))]
@@ -179,10 +181,10 @@ def stool(model, material, matrix):
     model.add(material, torus(0.135, 0.008, 12, 4), matrix @ translate(0, 0.2, 0))
 
 
-def noodles(name, seed, fine=False):
+def noodles(name, seed, detail):
     """Stock pots with lids, bowls, chopstick jars; stools in front."""
     model, r = Model(name), rng(seed)
-    segments = 32 if fine else 13
+    segments = (8, 13, 32)[detail]
     pot = [(0, 0), (0.2, 0), (0.205, 0.006), (0.205, 0.30), (0.214, 0.304), (0.214, 0.312), (0.198, 0.314), (0.198, 0.25),
            (0, 0.245)]
     lid = [(0.0, 0.0), (0.21, 0.0), (0.21, 0.01), (0.12, 0.045), (0.03, 0.055), (0.026, 0.075), (0.03, 0.085), (0, 0.09)]
@@ -193,8 +195,8 @@ def noodles(name, seed, fine=False):
         for s in (-1, 1):
             ear = [(0, 0.22, 0.205), (-0.05, 0.23, 0.205), (-0.05, 0.23, 0.245), (0.05, 0.23, 0.245), (0.05, 0.23, 0.205)]
             model.add(M.STEEL, sweep(ear[1:], 0.007, 5), translate(x, TOP_Y, 0.30) @ rotate_y(s * math.pi / 2))
-    bowl = lathe(_bowl(0.095, 0.075), 18 if fine else 9, 45)
-    nested = lathe(_bowl(0.095, 0.075)[1:5], 18 if fine else 9, 45)
+    bowl = lathe(_bowl(0.095, 0.075), (6, 9, 18)[detail], 45)
+    nested = lathe(_bowl(0.095, 0.075)[1:5], (6, 9, 18)[detail], 45)
     for k in range(4):
         glaze = M.GLAZES[(k + seed) % 4]
         y = TOP_Y
@@ -205,9 +207,9 @@ def noodles(name, seed, fine=False):
     for x in (0.45, 0.95):
         model.add(M.GLAZES[2], lathe([(0, 0), (0.035, 0), (0.038, 0.1), (0.032, 0.1), (0.03, 0.05)], 12, 40),
                   translate(x, TOP_Y, 0.62))
-        for _ in range(5):
+        for _ in range(5 if detail else 0):
             tilt = rotate_y(r.uniform(0, 6.28)) @ rotate_x(r.uniform(0.05, 0.2))
             model.add(M.CRATE, bevel_box(0.006, 0.2, 0.006, 0.001), translate(x, TOP_Y + 0.12, 0.62) @ tilt)
-    for k in range(4):
+    for k in range(4 if detail else 2):
         stool(model, M.PLASTIC[seed % 2], translate(-0.95 + 0.62 * k + r.uniform(-0.08, 0.08), 0, 1.25 + r.uniform(-0.1, 0.12)))
     return model

@@ -12,13 +12,13 @@ def wet_asphalt(size=1024, tile_m=11.0):
     hollows. The film and the puddles are what the lights streak on."""
     hollows = fbm(size, 5, 6, 301) + 0.35 * fbm(size, 14, 4, 302)
     damp = smoothstep(-0.30, 0.12, hollows)
-    puddle = smoothstep(0.20, 0.27, hollows)
+    puddle = smoothstep(0.06, 0.12, hollows)
     first, second, own = worley(size, 170, 303)
     grain = smoothstep(0.1, 0.6, first)
     value = (0.17 + 0.07 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
     cracks = smoothstep(0.05, 0.0, np.abs(fbm(size, 4, 5, 304))) * smoothstep(0.1, 0.5, fbm(size, 3, 2, 305) + 0.2)
     value = value * (1 - 0.5 * cracks)
-    rough = mix(mix(np.full((size, size), 0.72), np.full((size, size), 0.27), damp), np.full((size, size), 0.10), puddle)
+    rough = mix(mix(np.full((size, size), 0.72), np.full((size, size), 0.23), damp), np.full((size, size), 0.10), puddle)
     rough = rough + 0.05 * (own - 0.5) * (1 - puddle)
     height = -0.0035 * grain * (1 - 0.65 * damp) - 0.006 * cracks
     height = height * (1 - puddle)

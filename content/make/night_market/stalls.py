@@ -7,9 +7,10 @@ import numpy as np
 from kit.mesh import Model
 from kit.noise import rng
 from kit.shapes import bar, bevel_box, surface, sweep
-from kit.transform import rotate_z, translate
+from kit.transform import rotate_y, translate
 
 from . import materials as M
+from .goods import crate
 
 HALF_WIDTH_M = 1.45
 BACK_Z, FRONT_Z, AWNING_Z = -0.88, 0.85, 1.50
@@ -21,38 +22,35 @@ def awning_y(z):
     return BACK_Y + (FRONT_Y - BACK_Y) * (z - BACK_Z) / (AWNING_Z - BACK_Z)
 
 
-def body(name, paint, curtain, seed):
-    model, r = Model(name), rng(seed)
+def body(name, paint, curtain, seed, near):
+    """`near`: bevelled; the far ones have plain boxes and fewer folds."""
+    model, r, b = Model(name), rng(seed), 1 if near else 0
     for x in (-1, 1):
-        model.add(M.TIMBER, bevel_box(0.07, BACK_Y, 0.07, 0.006).with_uv_offset(r.random(), r.random()).at(
-            rotate_z(math.pi / 2) @ rotate_z(-math.pi / 2)), translate(x * (HALF_WIDTH_M - 0.04), BACK_Y / 2, BACK_Z))
+        model.add(M.TIMBER, bevel_box(0.07, BACK_Y, 0.07, 0.006 * b).with_uv_offset(r.random(), r.random()),
+                  translate(x * (HALF_WIDTH_M - 0.04), BACK_Y / 2, BACK_Z))
         front = awning_y(FRONT_Z)
-        model.add(M.TIMBER, bevel_box(0.07, front, 0.07, 0.006).with_uv_offset(r.random(), r.random()),
+        model.add(M.TIMBER, bevel_box(0.07, front, 0.07, 0.006 * b).with_uv_offset(r.random(), r.random()),
                   translate(x * (HALF_WIDTH_M - 0.04), front / 2, FRONT_Z))
-        model.add(M.TIMBER, bar((x * 1.41, BACK_Y - 0.03, BACK_Z - 0.04), (x * 1.41, FRONT_Y - 0.01, AWNING_Z), 0.05, 0.05, 0.005))
+        model.add(M.TIMBER, bar((x * 1.41, BACK_Y - 0.03, BACK_Z - 0.04), (x * 1.41, FRONT_Y - 0.01, AWNING_Z), 0.05, 0.05, 0.005 * b))
     for z in (BACK_Z, FRONT_Z):
         y = awning_y(z) - 0.07
-        model.add(M.TIMBER, bar((-1.44, y, z), (1.44, y, z), 0.05, 0.06, 0.005))
+        model.add(M.TIMBER, bar((-1.44, y, z), (1.44, y, z), 0.05, 0.06, 0.005 * b))
     # Counter: boarded front, thick top.
     boards = 6
     for k in range(boards):
         w = 2.6 / boards
-        board = bevel_box(w - 0.006, 0.82 + r.uniform(-0.008, 0.008), 0.025, 0.004)
+        board = bevel_box(w - 0.006, 0.82 + r.uniform(-0.008, 0.008), 0.025, 0.004 * b)
         model.add(paint, board, translate((k - (boards - 1) / 2) * w, 0.45, 0.74 + r.uniform(-0.003, 0.003)))
-    model.add(M.TIMBER, bevel_box(2.72, 0.045, 0.78, 0.008).with_uv_offset(r.random(), r.random()), translate(0, 0.8975, 0.40))
+    model.add(M.TIMBER, bevel_box(2.72, 0.045, 0.78, 0.008 * b).with_uv_offset(r.random(), r.random()), translate(0, 0.8975, 0.40))
     for x in (-1.3, 1.3):
-        model.add(paint, bevel_box(0.03, 0.86, 0.66, 0.004), translate(x, 0.44, 0.41))
-    model.add(curtain, drape(2.76, 2.5, seed), translate(0, BACK_Y - 0.12, BACK_Z + 0.05))
+        model.add(paint, bevel_box(0.03, 0.86, 0.66, 0.004 * b), translate(x, 0.44, 0.41))
+    model.add(curtain, drape(2.76, 2.5, seed, 21 if near else 15, 6 if near else 4), translate(0, BACK_Y - 0.12, BACK_Z + 0.05))
     for x in (-1, 1):
         if r.random() < 0.75:
-            side = drape(1.5, r.uniform(1.2, 2.2), seed + 7 + x, 11, 5)
-            model.add(curtain, side, translate(x * 1.40, 2.42, -0.06) @ _quarter(x))
+            # Drawn back to the rear half, so that the counter is open to the side.
+            side = drape(0.62, r.uniform(1.3, 2.3), seed + 7 + x, 9, 4)
+            model.add(curtain, side, translate(x * 1.40, 2.55, -0.52) @ rotate_y(x * math.pi / 2))
     return model
-
-
-def _quarter(sign):
-    from kit.transform import rotate_y
-    return rotate_y(sign * math.pi / 2)
 
 
 def drape(width, drop, seed, columns=21, rows=6):
@@ -91,20 +89,14 @@ def awning(name, canvas, seed):
 
 def clutter(name, seed):
     """Boxes, sacks and crates that stand beside a stall."""
-    from .goods import crate
     model, r = Model(name), rng(seed)
     y = 0.0
     for _ in range(int(r.integers(2, 5))):
-        crate(model, translate(r.uniform(-0.03, 0.03), y, r.uniform(-0.03, 0.03)) @ _turn(r.uniform(-0.15, 0.15)), 0.52, 0.36, 0.26,
+        crate(model, translate(r.uniform(-0.03, 0.03), y, r.uniform(-0.03, 0.03)) @ rotate_y(r.uniform(-0.15, 0.15)), 0.52, 0.36, 0.26,
               int(r.integers(0, 999)), 1)
         y += 0.265
     for k in range(2):
         size = r.uniform(0.28, 0.42)
-        model.add(M.CARDBOARD, bevel_box(size * 1.2, size, size, 0.005), translate(0.55, size / 2, -0.2 + 0.45 * k) @ _turn(
+        model.add(M.CARDBOARD, bevel_box(size * 1.2, size, size, 0.005), translate(0.55, size / 2, -0.2 + 0.45 * k) @ rotate_y(
             r.uniform(-0.4, 0.4)))
     return model
-
-
-def _turn(angle):
-    from kit.transform import rotate_y
-    return rotate_y(angle)

@@ -59,9 +59,9 @@ class Houses:
     def __init__(self, scene, parent):
         self.scene, self.parent = scene, parent
         self.windows = [window_model("window dark", M.DARK_GLASS)] * 3 + [
-            window_model("window amber", curtained_pane("amber curtain", (1.0, 0.55, 0.22), 9.0, 1)),
-            window_model("window gold", curtained_pane("gold curtain", (1.0, 0.70, 0.36), 6.0, 2)),
-            window_model("window green", curtained_pane("green curtain", (0.55, 0.85, 0.55), 3.5, 3))]
+            window_model("window amber", curtained_pane("amber curtain", (1.0, 0.55, 0.22), 15.0, 1)),
+            window_model("window gold", curtained_pane("gold curtain", (1.0, 0.70, 0.36), 10.0, 2)),
+            window_model("window green", curtained_pane("green curtain", (0.55, 0.85, 0.55), 5.0, 3))]
         unit = Model("air conditioner")
         unit.add(M.STEEL, bevel_box(0.8, 0.55, 0.3, 0.012), translate(0, 0, 0.2))
         unit.add(M.IRON, cylinder(0.21, 0.02, 20, 0.004), translate(-0.12, 0, 0.35) @ rotate_x(math.pi / 2))
