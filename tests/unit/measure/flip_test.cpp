@@ -112,18 +112,26 @@ TEST(Flip, FeaturesRaiseTheError) {
     EXPECT_NEAR(result.map[40 * 80 + 4], 0.0, 1e-4) << "far on the unchanged side";
 }
 
-// A step of height 1 in the achromatic channel has edge strength 1 where it stands (each half of the kernel
-// sums to 1): seen through the map of black against a black and white step, and independent of direction.
-TEST(Flip, EdgeStrengthOfAFullStepIsOne) {
-    const Picture black(81, 41, 0.0f);
-    Picture step = black;
-    step.fill(41, 0, 81, 41, 1.0f);
-    const FlipResult result = flip(black.view(), step.view());
-    // Between columns 40 and 41 stands the step: the edge response is that of the half sums, feature
-    // difference (1 / sqrt 2)^0.5 = 0.841 less the half weight of the middle, so the value is colour^(about
-    // 0.16).
-    const double value = result.map[20 * 81 + 40];
-    EXPECT_GT(value, 0.95);
+// At 1 pixel per degree every kernel shrinks to its neighbours, so a pixel can be followed by hand: colour is
+// that of the flat pictures, the edge kernel is (1, 0, -1) and its response the step's height in luminance Y,
+// the feature difference sqrt(height / sqrt 2), the value colour^(1 - feature).
+TEST(Flip, FeatureExponentByHand) {
+    const auto linear = [](double v) { return std::pow((v + 0.055) / 1.055, 2.4); };
+    const Picture reference(9, 9, 0.5f);
+    Picture step = reference;
+    step.fill(5, 0, 9, 9, 0.6f);
+    const FlipResult result = flip(reference.view(), step.view(), 1.0);
+    const double color = flat(reference, Picture(9, 9, 0.6f));
+    const double feature = std::sqrt((linear(0.6) - linear(0.5)) / std::sqrt(2.0));
+    EXPECT_NEAR(result.map[4 * 9 + 5], std::pow(color, 1.0 - feature), 1e-5);
+    EXPECT_NEAR(result.map[4 * 9 + 6], color, 1e-5);
+    EXPECT_EQ(result.map[4 * 9 + 4], 0.0f) << "no colour difference, no error";
+    // A line one pixel wide: the point kernel (1/2, -1, 1/2) answers with the full height, the edge kernel
+    // not.
+    Picture line = reference;
+    line.fill(4, 0, 5, 9, 0.6f);
+    EXPECT_NEAR(flip(reference.view(), line.view(), 1.0).map[4 * 9 + 4], std::pow(color, 1.0 - feature),
+                1e-5);
 }
 
 } // namespace
