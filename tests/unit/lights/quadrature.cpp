@@ -36,21 +36,31 @@ Patch conePatch(const dvec3& axis, double oneMinusCos, double u, double v) {
             2.0 * kPi * oneMinusCos * 2.0 * u};
 }
 
+// A ring of the tube, v turning over what the receiver sees of it: normals x * along + around * ring about a point
+// on the axis, `areaPerTurn` for the whole ring.
+Patch ringPatch(const Emitter& e, const dvec3& toAxisPoint, double along, double ring, double areaPerTurn, double v) {
+    const double y = -glm::dot(toAxisPoint, e.y);
+    const double z = -glm::dot(toAxisPoint, e.z);
+    const double side = std::max(std::hypot(y, z) * ring, 1e-9);
+    const double limit = (e.size.x + along * glm::dot(toAxisPoint, e.x)) / side; // seen where cos(turn) is above
+    const double halfTurn = std::acos(std::clamp(limit, -1.0, 1.0));
+    const double phi = std::atan2(z, y) + (2.0 * v - 1.0) * halfTurn;
+    const dvec3 normal = e.x * along + (e.y * std::cos(phi) + e.z * std::sin(phi)) * ring;
+    return fromPoint(toAxisPoint + normal * e.size.x, normal, areaPerTurn * halfTurn / kPi);
+}
+
 Patch tubePatch(const Emitter& e, const dvec3& toCenter, double u, double v) {
     const double radius = e.size.x;
     const double halfLength = e.size.y;
-    const double phi = 2.0 * kPi * v;
-    const dvec3 around = e.y * std::cos(phi) + e.z * std::sin(phi);
     // u: a third for each end by its angle, a third for the side.
     const double part = u * 3.0;
     if (part >= 1.0 && part <= 2.0)
-        return fromPoint(toCenter + e.x * ((2.0 * part - 3.0) * halfLength) + around * radius, around,
-                         3.0 * 2.0 * halfLength * 2.0 * kPi * radius);
+        return ringPatch(e, toCenter + e.x * ((2.0 * part - 3.0) * halfLength), 0.0, 1.0,
+                         3.0 * 2.0 * halfLength * 2.0 * kPi * radius, v);
     const double end = part < 1.0 ? -1.0 : 1.0;
     const double angle = (part < 1.0 ? part : 3.0 - part) * 0.5 * kPi; // from the pole
-    const dvec3 normal = e.x * (end * std::cos(angle)) + around * std::sin(angle);
-    return fromPoint(toCenter + e.x * (end * halfLength) + normal * radius, normal,
-                     3.0 * 0.5 * kPi * radius * radius * std::sin(angle) * 2.0 * kPi);
+    return ringPatch(e, toCenter + e.x * (end * halfLength), end * std::cos(angle), std::sin(angle),
+                     3.0 * 0.5 * kPi * radius * radius * std::sin(angle) * 2.0 * kPi, v);
 }
 
 Patch patchAt(const Emitter& e, const dvec3& toCenter, double u, double v) {
@@ -152,12 +162,20 @@ Reflected integrate(const Emitter& emitter, const Surface& surface) {
     Integrator integrator{emitter, surface, emitter.center - surface.position, mirror, surface.roughness * surface.roughness, 0.0};
     if (emitter.type == shared::LIGHT_DIRECTIONAL)
         integrator.toCenter = emitter.z;
-    const Reflected coarse = integrator.cell(0.0, 0.0, 1.0, 1.0);
-    // Two rounds: the first finds the size of the value.
-    integrator.tolerance = 1e-3;
-    const Reflected rough = integrator.refine(coarse, 0.0, 0.0, 1.0, 1.0, 0);
-    integrator.tolerance = 1e-4 * std::max({rough.specular.x + rough.specular.y, 0.2 * rough.diffuse, 1e-12});
-    return integrator.refine(coarse, 0.0, 0.0, 1.0, 1.0, 0);
+    // Two rounds: the first finds the size of the value. In thirds, so that no cell holds a seam of the tube.
+    Reflected sum;
+    for (const double tolerance : {1e-3, 1e-4}) {
+        const double value = std::max({sum.specular.x + sum.specular.y, 0.2 * sum.diffuse, 1e-12});
+        integrator.tolerance = tolerance == 1e-3 ? tolerance : tolerance * value;
+        sum = {};
+        for (int third = 0; third < 3; ++third) {
+            const Reflected coarse = integrator.cell(third / 3.0, 0.0, 1.0 / 3.0, 1.0);
+            const Reflected part = integrator.refine(coarse, third / 3.0, 0.0, 1.0 / 3.0, 1.0, 0);
+            sum.diffuse += part.diffuse;
+            sum.specular += part.specular;
+        }
+    }
+    return sum;
 }
 
 double lobePeak(const Surface& surface, double f0) {
