@@ -127,6 +127,11 @@ class Oracle {
     // `camera` sees width x height pixels; its own aspect is ignored, the picture's is used.
     OracleImage render(const Camera& camera, int width, int height, const OracleOptions& options = {}) const;
 
+    // All lights at each point, as render() does it for what its own rays hit: for comparisons on the
+    // G-buffer of another renderer. Emission is not added. Noise differs between indices.
+    std::vector<OraclePixel> shadePoints(const std::vector<OraclePoint>& points,
+                                         const OracleOptions& options = {}) const;
+
   private:
     struct State;
     std::unique_ptr<State> state_;

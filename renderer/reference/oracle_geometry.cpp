@@ -19,6 +19,7 @@ using glm::dvec3;
 
 constexpr double kPlaneEpsilon = 64.0 * 2.220446049250313e-16;
 constexpr double kFloatEpsilon = 16.0 * 5.9604644775390625e-8;
+constexpr double kLeastFacing = 1e-3;  // of a shading normal towards the viewer, by the project's definition
 constexpr double kEndTolerance = 1e-9; // a surface in which the light's own point lies does not hide it
 
 double largestCoordinate(const dvec3& p) {
@@ -70,9 +71,11 @@ void OracleGeometry::addPart(const Scene& scene, int node, int primitiveIndex) {
     // A flattened node has no inverse; its normals then come from the faces.
     const glm::dmat3 normalMatrix =
         determinant != 0.0 ? glm::transpose(glm::inverse(linear)) : glm::dmat3(0.0);
-    parts_.push_back({mesh, primitiveIndex, node, primitive.material, material.doubleSided,
-                      material.alphaMode == AlphaMode::Mask, material.alphaCutoff,
-                      determinant < 0.0 ? -1.0 : 1.0, world, normalMatrix});
+    parts_.push_back(
+        {mesh, primitiveIndex, node, primitive.material, material.doubleSided,
+         material.alphaMode != AlphaMode::Opaque,
+         material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : MaterialReader::kOpaqueFrom,
+         determinant < 0.0 ? -1.0 : 1.0, world, normalMatrix});
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices =
         static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -218,7 +221,8 @@ OracleHit OracleGeometry::describe(const Query& query, const Part& part, std::ui
     dvec3 normal = part.normalMatrix * at.normal;
     const double normalLength = glm::length(normal);
     normal = normalLength > 0.0 ? normal / normalLength : face;
-    const dvec3 tangent = glm::dmat3(part.worldFromNode) * dvec3(at.tangent);
+    dvec3 tangent = glm::dmat3(part.worldFromNode) * dvec3(at.tangent);
+    tangent -= normal * glm::dot(normal, tangent);
     const double tangentLength = glm::length(tangent);
     if (tangentLength > 0.0 && value.tangentNormal.z < 1.0) {
         const dvec3 t = tangent / tangentLength;
@@ -231,8 +235,8 @@ OracleHit OracleGeometry::describe(const Query& query, const Part& part, std::ui
     hit.point.geometricNormalWs = face * facing;
     normal *= facing;
     const double noV = glm::dot(normal, hit.point.viewDirWs);
-    if (noV < 0.0) // bent until it lies in the plane square to the view
-        normal = glm::normalize(normal - hit.point.viewDirWs * noV);
+    if (noV < kLeastFacing) // bent until it is seen edge on
+        normal = glm::normalize(normal + hit.point.viewDirWs * (kLeastFacing - noV));
     hit.point.shadingNormalWs = normal;
     return hit;
 }

@@ -29,7 +29,7 @@ class OracleGeometry {
         int node;
         int material;
         bool doubleSided;
-        bool masked;
+        bool masked; // alpha decides point by point
         double cutoff;
         double side; // -1 where the node mirrors
         glm::dmat4 worldFromNode;

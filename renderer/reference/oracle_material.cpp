@@ -13,8 +13,6 @@ using glm::dvec2;
 using glm::dvec3;
 using glm::dvec4;
 
-constexpr double kOpaqueFrom = 0.5;
-
 double decodeSrgb(double value) {
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
@@ -93,7 +91,7 @@ const Material& MaterialReader::material(int index) const {
 bool MaterialReader::isDrawnLater(int index) const {
     const Material& m = material(index);
     const double opacity = m.alphaMode == AlphaMode::Blend ? m.baseColorFactor.a : 1.0;
-    return opacity < kOpaqueFrom || 1.0 - m.transmission < kOpaqueFrom;
+    return opacity * (1.0 - m.transmission) < kOpaqueFrom;
 }
 
 dvec4 MaterialReader::read(const TextureRef& texture, ColorSpace space, const SurfaceSample& at) const {

@@ -30,8 +30,10 @@ class MaterialReader {
   public:
     MaterialReader(std::vector<Material> materials, std::vector<std::shared_ptr<const Image>> images);
 
+    static constexpr double kOpaqueFrom = 0.5; // blended surfaces below this opacity are drawn later
+
     const Material& material(int index) const; // -1: glTF's default material
-    // Below this opacity a surface is neither seen nor does it shade (it belongs to the forward pass).
+    // The whole surface is neither seen nor does it shade. (A blend texture decides point by point.)
     bool isDrawnLater(int index) const;
     double alpha(int index, const SurfaceSample& at) const;
     MaterialValue evaluate(int index, const SurfaceSample& at) const;

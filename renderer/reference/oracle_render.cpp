@@ -37,32 +37,56 @@ double invertBlackmanHarris(double u) {
     return 0.5 * (low + high);
 }
 
-void addRay(OraclePixel& pixel, const Oracle& oracle, const CameraRay& ray, const OracleOptions& options,
-            double weight, dvec3& variance, dvec3& radianceNit) {
-    radianceNit = dvec3(0.0);
-    const std::optional<OracleHit> hit = oracle.tracePrimary(ray.originWs, ray.directionWs, ray.minDistanceM);
-    if (!hit) return;
-    radianceNit = hit->emissionNit;
-    pixel.coverage += weight;
-    pixel.emissionNit += weight * hit->emissionNit;
-    pixel.baseColor += weight * hit->point.material.baseColor;
+// One surface point's share of a pixel: all lights, and what the point is. Returns its radiance without
+// emission.
+dvec3 addPoint(OraclePixel& pixel, const Oracle& oracle, const OraclePoint& point,
+               const OracleOptions& options, double weight, dvec3& variance) {
+    dvec3 radianceNit(0.0);
     for (std::size_t i = 0; i < oracle.lightCount(); ++i) {
-        const OraclePointResult result = oracle.evaluatePoint(hit->point, i, options);
+        const OraclePointResult result = oracle.evaluatePoint(point, i, options);
         pixel.irradianceLux += weight * result.irradianceLux;
         pixel.diffuseNit += weight * result.diffuseNit;
         pixel.specularNit += weight * result.specularNit;
         radianceNit += result.diffuseNit + result.specularNit;
         variance += weight * weight * result.standardErrorNit * result.standardErrorNit;
     }
-    pixel.shadingNormalWs = hit->point.shadingNormalWs;
-    pixel.geometricNormalWs = hit->point.geometricNormalWs;
-    pixel.positionWs = hit->point.positionWs;
-    pixel.metallic = hit->point.material.metallic;
-    pixel.roughness = hit->point.material.roughness;
+    pixel.coverage += weight;
+    pixel.baseColor += weight * point.material.baseColor;
+    pixel.shadingNormalWs = point.shadingNormalWs;
+    pixel.geometricNormalWs = point.geometricNormalWs;
+    pixel.positionWs = point.positionWs;
+    pixel.metallic = point.material.metallic;
+    pixel.roughness = point.material.roughness;
+    return radianceNit;
+}
+
+dvec3 addRay(OraclePixel& pixel, const Oracle& oracle, const CameraRay& ray, const OracleOptions& options,
+             double weight, dvec3& variance) {
+    const std::optional<OracleHit> hit = oracle.tracePrimary(ray.originWs, ray.directionWs, ray.minDistanceM);
+    if (!hit) return dvec3(0.0);
+    pixel.emissionNit += weight * hit->emissionNit;
     pixel.hitDistanceM = hit->distanceM;
     pixel.node = hit->node;
     pixel.primitive = hit->primitive;
     pixel.triangle = hit->triangle;
+    return hit->emissionNit + addPoint(pixel, oracle, hit->point, options, weight, variance);
+}
+
+// Calls work(i) for every i below count, in any order.
+template<typename Work>
+void inParallel(int count, int threadCount, const Work& work) {
+    std::atomic<int> next = 0;
+    const auto run = [&] {
+        for (int i = next++; i < count; i = next++)
+            work(i);
+    };
+    const int hardware = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
+    std::vector<std::thread> threads;
+    for (int i = 1; i < (threadCount > 0 ? threadCount : hardware); ++i)
+        threads.emplace_back(run);
+    run();
+    for (std::thread& thread : threads)
+        thread.join();
 }
 
 OraclePixel renderPixel(const Oracle& oracle, const Camera& camera, int width, int height, int x, int y,
@@ -81,9 +105,8 @@ OraclePixel renderPixel(const Oracle& oracle, const Camera& camera, int width, i
             offset = sampleFilter(options.filter, uv.x, uv.y);
         }
         perRay.seed = seedOf({pixelSeed, static_cast<std::uint64_t>(i)});
-        dvec3 radianceNit;
-        addRay(pixel, oracle, cameraRay(camera, width, height, dvec2(x + 0.5, y + 0.5) + offset), perRay,
-               1.0 / rays, variance, radianceNit);
+        const CameraRay ray = cameraRay(camera, width, height, dvec2(x + 0.5, y + 0.5) + offset);
+        const dvec3 radianceNit = addRay(pixel, oracle, ray, perRay, 1.0 / rays, variance);
         pixel.radianceNit += radianceNit / double(rays);
         sumOfSquares += radianceNit * radianceNit;
     }
@@ -118,22 +141,30 @@ CameraRay cameraRay(const Camera& camera, int width, int height, const dvec2& po
 
 OracleImage Oracle::render(const Camera& camera, int width, int height, const OracleOptions& options) const {
     OracleImage image{width, height, std::vector<OraclePixel>(static_cast<std::size_t>(width) * height)};
-    std::atomic<int> nextRow = 0;
-    const auto work = [&] {
-        for (int y = nextRow++; y < height; y = nextRow++)
-            for (int x = 0; x < width; ++x)
-                image.pixels[static_cast<std::size_t>(y) * width + x] =
-                    renderPixel(*this, camera, width, height, x, y, options);
-    };
-    const int hardware = std::max(static_cast<int>(std::thread::hardware_concurrency()), 1);
-    const int count = options.threads > 0 ? options.threads : hardware;
-    std::vector<std::thread> threads;
-    for (int i = 1; i < count; ++i)
-        threads.emplace_back(work);
-    work();
-    for (std::thread& thread : threads)
-        thread.join();
+    inParallel(height, options.threads, [&](int y) {
+        for (int x = 0; x < width; ++x)
+            image.pixels[static_cast<std::size_t>(y) * width + x] =
+                renderPixel(*this, camera, width, height, x, y, options);
+    });
     return image;
+}
+
+std::vector<OraclePixel> Oracle::shadePoints(const std::vector<OraclePoint>& points,
+                                             const OracleOptions& options) const {
+    constexpr std::size_t kPerTask = 64;
+    std::vector<OraclePixel> pixels(points.size());
+    const int tasks = static_cast<int>((points.size() + kPerTask - 1) / kPerTask);
+    inParallel(tasks, options.threads, [&](int task) {
+        OracleOptions own = options;
+        const std::size_t end = std::min((task + 1) * kPerTask, points.size());
+        for (std::size_t i = task * kPerTask; i < end; ++i) {
+            own.seed = seedOf({options.seed, i});
+            dvec3 variance(0.0);
+            pixels[i].radianceNit = addPoint(pixels[i], *this, points[i], own, 1.0, variance);
+            pixels[i].standardErrorNit = glm::sqrt(variance);
+        }
+    });
+    return pixels;
 }
 
 } // namespace kilolux::oracle

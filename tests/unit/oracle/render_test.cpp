@@ -147,6 +147,34 @@ TEST(Render, PointCallMatchesThePicture) {
     EXPECT_LE(glm::length(sum - pixel.radianceNit), 1e-9 * glm::length(sum));
 }
 
+TEST(Render, ShadePointsOnAGivenGBuffer) {
+    const SmallRoom room;
+    const Oracle oracle(room.builder.scene);
+    OracleOptions options;
+    options.samplesPerLight = 256;
+    const OracleImage image = oracle.render(room.camera, 24, 16, options);
+    std::vector<OraclePoint> points;
+    std::vector<const OraclePixel*> seen;
+    for (const OraclePixel& pixel : image.pixels) {
+        if (pixel.node < 0) continue;
+        seen.push_back(&pixel);
+        OraclePoint point;
+        point.positionWs = pixel.positionWs;
+        point.geometricNormalWs = pixel.geometricNormalWs;
+        point.shadingNormalWs = pixel.shadingNormalWs;
+        point.viewDirWs = glm::normalize(dvec3(room.camera.worldFromCamera[3]) - pixel.positionWs);
+        point.material = {pixel.baseColor, pixel.metallic, pixel.roughness};
+        points.push_back(point);
+    }
+    const std::vector<OraclePixel> shaded = oracle.shadePoints(points, options);
+    ASSERT_EQ(shaded.size(), points.size());
+    for (std::size_t i = 0; i < shaded.size(); ++i) {
+        const double reference = (seen[i]->diffuseNit + seen[i]->specularNit).g;
+        const double noise = shaded[i].standardErrorNit.g + seen[i]->standardErrorNit.g;
+        EXPECT_NEAR(shaded[i].radianceNit.g, reference, 6.0 * noise + 1e-9 * reference);
+    }
+}
+
 TEST(Render, MutedAndUnreachableLightsGiveNothing) {
     SmallRoom room;
     room.builder.scene.lights[0].muted = true;
