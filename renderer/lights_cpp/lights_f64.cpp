@@ -15,7 +15,7 @@ using namespace shared;
 LightHot fromF32(const shared::LightHot& light) {
     return {.positionWs = vec3(light.positionWs),
             .invRange = light.invRange,
-            .dirWs = vec3(light.dirWs),
+            .dirWs = glm::normalize(vec3(light.dirWs)),
             .tangentOct = light.tangentOct,
             .intensity = vec3(light.intensity),
             .typeFlags = light.typeFlags,

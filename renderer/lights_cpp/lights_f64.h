@@ -23,7 +23,7 @@ using mat3 = glm::dmat3;
 #include "renderer/lights_cpp/lights_api.inl"
 #undef float
 
-// The exact values of a float record.
+// The values of a float record, its direction made unit in double.
 LightHot fromF32(const shared::LightHot& light);
 
 } // namespace kilolux::f64
