@@ -33,6 +33,7 @@ struct AutoNumber {
 struct Settings {
     AutoNumber exposureEv100;
     double raysPerPixel = 1.0;
+    int raysPerLight = 1;
     bool jitter = true;
     PixelFilter pixelFilter = PixelFilter::BlackmanHarris;
     ToneMap toneMap = ToneMap::Neutral;

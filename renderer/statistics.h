@@ -45,6 +45,8 @@ struct FrameStatistics {
     std::vector<std::pair<std::string, double>>
         firstDispatchMs;    // pass and its first dispatch, compiler included
     double startupMs = 0.0; // process start to the first picture
+    double exposureEv100 = 0.0;
+    std::vector<std::string> notes; // what the renderer decided for the user, one line each
 };
 
 // The object that --stats writes: field names as above, `passes` by name, `gpuMemoryMiB` by cause and

@@ -213,6 +213,10 @@ void Device::createDevice() {
     VkPhysicalDeviceFeatures2 supported{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     supported.pNext = &supported12;
     vkGetPhysicalDeviceFeatures2(physicalDevice_, &supported);
+    // Storage images of two channels (rg32ui, rg32f) are among the extended formats.
+    if (!supported.features.shaderStorageImageExtendedFormats) {
+        throw DeviceError("the device lacks shaderStorageImageExtendedFormats");
+    }
     if (!supported12.scalarBlockLayout) throw DeviceError("the device lacks scalarBlockLayout");
 
     VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -229,6 +233,9 @@ void Device::createDevice() {
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.pNext = &features12;
     features.features.independentBlend = VK_TRUE;
+    hasGeometryShader_ = supported.features.geometryShader;
+    features.features.geometryShader = supported.features.geometryShader;
+    features.features.shaderStorageImageExtendedFormats = supported.features.shaderStorageImageExtendedFormats;
     features.features.samplerAnisotropy = supported.features.samplerAnisotropy;
     // GPU-assisted validation writes from every stage.
     features.features.fragmentStoresAndAtomics = supported.features.fragmentStoresAndAtomics;

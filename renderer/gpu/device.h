@@ -49,6 +49,7 @@ class Device {
     std::string driver() const { return driver_; }
     bool isCpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool hasRayQuery() const { return hasRayQuery_; }
+    bool hasGeometryShader() const { return hasGeometryShader_; } // lets fragments read gl_PrimitiveID
     bool hasReliableTimestamps() const { return hasReliableTimestamps_; }
     std::uint32_t subgroupSize() const { return subgroupSize_; }
 
@@ -93,6 +94,7 @@ class Device {
     std::unique_ptr<MemoryAllocator> memory_;
     bool hasDebugUtils_ = false;
     bool hasRayQuery_ = false;
+    bool hasGeometryShader_ = false;
     bool hasReliableTimestamps_ = false;
     std::uint32_t subgroupSize_ = 0;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;

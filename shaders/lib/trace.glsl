@@ -1,5 +1,5 @@
-// World tracing by the compute BVH, on every device: bool occluded(Ray) and Hit nearest(Ray). The second back
-// end, trace_ray_query.glsl, has the same interface; a shader includes one of them.
+// World tracing: bool occluded(Ray) and Hit nearest(Ray). Two back ends with the same answers within ties at
+// shared edges: the compute BVH, on every device, and with KILOLUX_RAY_QUERY defined VK_KHR_ray_query.
 #ifndef KILOLUX_TRACE_GLSL
 #define KILOLUX_TRACE_GLSL
 #include "../math/prelude.glsl"
@@ -11,14 +11,10 @@
 layout(constant_id = FEATURE_ALPHA_MASK) const bool kTraceAlpha = true;
 
 // Texel buffers, because on CPU drivers they read faster than storage buffers.
-uniform usamplerBuffer traceNodes;   // R32G32B32A32_UINT: BvhNode
 uniform samplerBuffer tracePairs;    // R32G32B32A32_SFLOAT: BvhPair
 uniform usamplerBuffer tracePairIds; // R32G32_UINT
 uniform usamplerBuffer traceEntries; // R32G32B32A32_UINT: BvhEntry
 
-uvec4 fetchNode(uint texel) {
-    return texelFetch(traceNodes, int(texel));
-}
 vec4 fetchPair(uint texel) {
     return texelFetch(tracePairs, int(texel));
 }
@@ -32,14 +28,11 @@ uint traceInstanceCount() {
     return uint(textureSize(traceInstances));
 }
 
-#include "trace_core.glsl"
-
-bool occluded(Ray ray) {
-    return occludedByBvh(ray);
-}
-
-Hit nearest(Ray ray) {
-    return nearestInBvh(ray);
-}
+#include "trace_hit.glsl"
+#ifdef KILOLUX_RAY_QUERY
+#include "trace_ray_query.glsl"
+#else
+#include "trace_bvh.glsl"
+#endif
 
 #endif

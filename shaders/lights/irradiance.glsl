@@ -173,32 +173,40 @@ KX_INLINE OutlineIntegral integrateOutline(EmitterOutline outline, ShadingPoint 
     return result;
 }
 
-// The mean of max(cosine, 0) over a small round light at this cosine, whose extent along the normal is +-sine.
-KX_INLINE float horizonCosine(float cosine, float sine) {
-    float part = saturate((cosine + sine) / max(2.0 * sine, 1.0e-6));
-    return cosine >= sine ? cosine : part * part * sine;
+// What the horizon leaves of a small round light: x its share in area, y the mean cosine of that part. `cosine` is
+// the centre's, `sine` the radius.
+KX_INLINE vec2 horizonCut(float cosine, float sine) {
+    float height = clamp(cosine / max(sine, 1.0e-12), -1.0, 1.0);
+    float chord = sqrt(1.0 - height * height);
+    float share = (angleFromCosSin(-height, chord) + height * chord) * KX_INV_PI;
+    float moment = max(height * share + (2.0 / 3.0) * KX_INV_PI * chord * chord * chord, 0.0); // in units of sine
+    vec2 cut = vec2(share, moment * sine / max(share, 1.0e-12));
+    return cosine >= sine ? vec2(1.0, cosine) : cut;
 }
 
 // A small light acts through its direction and solid angle alone.
 KX_INLINE LightIrradiance smallIrradiance(EmitterOutline outline, ShadingPoint point, vec3 emission) {
     float cosine = dot(point.normalWs, outline.dirWs);
-    float clipped = outline.angularRadius > 0.0 ? horizonCosine(cosine, outline.angularRadius) : max(cosine, 0.0);
-    vec2 lobe = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, outline.dirWs, point.alpha);
-    float specular = outline.solidAngle * lobe.x;
+    vec2 cut = horizonCut(cosine, outline.angularRadius);
+    float solidAngle = cosine + outline.angularRadius > 0.0 ? outline.solidAngle * cut.x : 0.0;
+    vec3 dir = normalize(outline.dirWs + point.normalWs * max(cut.y - cosine, 0.0));
+    vec2 lobe = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, dir, point.alpha);
+    float specular = solidAngle * lobe.x;
     LightIrradiance result;
     result.emission = emission;
-    result.diffuse = outline.solidAngle * clipped;
+    result.diffuse = solidAngle * cut.y;
     result.specular = vec2(specular * (1.0 - lobe.y), specular * lobe.y);
     return result;
 }
 
 // `emission` is lightEvaluate() at the point.
 KX_INLINE LightIrradiance outlineIrradiance(EmitterOutline outline, ShadingPoint point, LtcLobe lobe, vec3 emission) {
-    if (outline.solidAngle <= 0.0 || outline.angularRadius <= min(0.01, 0.1 * point.alpha)) {
-        bool cut = abs(dot(point.normalWs, outline.dirWs)) < outline.angularRadius;
-        if (!cut || outline.angularRadius < 1.0e-4)
-            return smallIrradiance(outline, point, emission);
-    }
+    float cosine = dot(point.normalWs, outline.dirWs);
+    float radius = outline.angularRadius;
+    bool cut = abs(cosine) < radius && radius > 1.0e-3; // by the horizon, and large enough to be walked in float
+    bool small_ = radius <= min(0.01, 0.1 * point.alpha) && !cut;
+    if (small_ || outline.solidAngle <= 0.0 || cosine + radius <= 0.0)
+        return smallIrradiance(outline, point, emission);
     OutlineIntegral sum = integrateOutline(outline, point, lobe);
     LightIrradiance result;
     result.emission = emission;

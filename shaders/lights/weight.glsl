@@ -6,44 +6,81 @@
 
 // What a weight needs of a light's geometry.
 struct LightProxy {
-    vec3 dirWs;       // unit, towards where most light comes from
+    vec3 dirWs;       // unit, towards the middle of the light as it is seen
     float solidAngle; // about; 1/m^2 for points, 1 for delta directions; 0 only where the light does not reach
     float sinRadius;  // of a cone about dirWs that holds the light
+    vec3 longDirWs;   // unit, square to dirWs: the way the light extends to sinRadius
+    float sinShort;   // how far it extends across
 };
 
-KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
+KX_INLINE LightProxy roundProxy(vec3 dirWs, float solidAngle, float sinRadius) {
     LightProxy proxy;
+    proxy.dirWs = dirWs;
+    proxy.solidAngle = solidAngle;
+    proxy.sinRadius = sinRadius;
+    proxy.longDirWs = vec3(0.0);
+    proxy.sinShort = sinRadius;
+    return proxy;
+}
+
+// A tube's light is about even over the angle that its axis fills, so its middle is the bisector.
+KX_INLINE LightProxy tubeProxy(LightHot light, vec3 toCenter) {
+    vec3 axis = lightFrame(light)[0];
+    float radius = tubeRadiusM(light);
+    vec3 toA = toCenter - axis * light.sizeM.y;
+    vec3 toB = toCenter + axis * light.sizeM.y;
+    vec3 dirA = toA * inversesqrt(max(dot(toA, toA), 1.0e-12));
+    vec3 dirB = toB * inversesqrt(max(dot(toB, toB), 1.0e-12));
+    vec3 foot = toCenter - axis * dot(toCenter, axis);
+    float fromAxis = max(length(foot), radius);
+    float nearest = clamp(-dot(toCenter, axis), -light.sizeM.y, light.sizeM.y);
+    vec3 toNearest = toCenter + axis * nearest;
+    float nearest2 = max(dot(toNearest, toNearest), radius * radius);
+    float halfAngle = 0.5 * angleFromCosSin(dot(dirA, dirB), length(cross(dirA, dirB)));
+    vec3 middle = dirA + dirB;
+    middle = dot(middle, middle) > 1.0e-6 ? normalize(middle) : foot / fromAxis;
+    LightProxy proxy;
+    proxy.dirWs = middle;
+    proxy.solidAngle = 4.0 * radius * halfAngle / fromAxis + KX_PI * radius * radius / nearest2;
+    proxy.sinRadius = min(sin(min(halfAngle, KX_HALF_PI)) + 1.1 * radius * inversesqrt(nearest2), 1.0);
+    vec3 along = axis - middle * dot(axis, middle);
+    proxy.longDirWs = along * inversesqrt(max(dot(along, along), 1.0e-12));
+    proxy.sinShort = radius * inversesqrt(nearest2);
+    return proxy;
+}
+
+KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
     uint type = lightType(light);
-    vec3 toCenter = light.positionWs - receiverWs;
-    float distance2 = max(dot(toCenter, toCenter), 1.0e-12);
-    float extent = light.sizeM.x;
     if (type == LIGHT_DIRECTIONAL) {
-        proxy.dirWs = -light.dirWs;
-        proxy.sinRadius = directionalIsDelta(light) ? 0.0 : sqrt(directionalSin2(light));
-        proxy.solidAngle = directionalIsDelta(light) ? 1.0 : KX_PI * directionalSin2(light);
-        return proxy;
+        float sin2 = directionalSin2(light);
+        bool delta = directionalIsDelta(light);
+        return roundProxy(-light.dirWs, delta ? 1.0 : KX_PI * sin2, delta ? 0.0 : sqrt(sin2));
     }
-    float area = KX_PI * extent * extent;
-    float facing = 1.0;
-    if (type == LIGHT_RECT || type == LIGHT_DISK) {
-        float height = -dot(light.dirWs, toCenter);
-        extent = type == LIGHT_RECT ? length(light.sizeM) : extent;
-        area = type == LIGHT_RECT ? rectAreaM2(light) : diskAreaM2(light);
-        facing = height > 0.0 ? max(height * inversesqrt(distance2), 1.0e-4) : 0.0;
-    } else if (type == LIGHT_TUBE) {
-        extent = light.sizeM.y + tubeRadiusM(light);
-        vec3 axis = lightFrame(light)[0];
-        float along = dot(toCenter, axis);
-        float slant2 = max(1.0 - along * along / distance2, 0.0);
-        area = tubeRadiusM(light) * (4.0 * light.sizeM.y * sqrt(slant2) + KX_PI * tubeRadiusM(light));
-        // Half way to the axis point nearest the receiver, which is where most of the light comes from.
-        toCenter = toCenter + axis * (0.5 * clamp(-along, -light.sizeM.y, light.sizeM.y));
+    vec3 toCenter = light.positionWs - receiverWs;
+    if (type == LIGHT_TUBE)
+        return tubeProxy(light, toCenter);
+    float distance2 = max(dot(toCenter, toCenter), 1.0e-12);
+    float invDistance = inversesqrt(distance2);
+    vec3 dir = toCenter * invDistance;
+    if (type == LIGHT_SPHERE || type == LIGHT_SPOT) {
+        float sine = min(light.sizeM.x * invDistance, 1.0);
+        bool point = sphereIsPoint(light);
+        return roundProxy(dir, point ? 1.0 / distance2 : KX_PI * sine * sine, point ? 0.0 : sine);
     }
-    proxy.dirWs = toCenter * inversesqrt(max(dot(toCenter, toCenter), 1.0e-12));
-    bool isPoint = (type == LIGHT_SPHERE || type == LIGHT_SPOT) && sphereIsPoint(light);
-    float perDistance2 = area * facing / (distance2 + area * KX_INV_PI);
-    proxy.solidAngle = isPoint ? 1.0 / distance2 : perDistance2;
-    proxy.sinRadius = isPoint ? 0.0 : min(extent * inversesqrt(distance2) * (type == LIGHT_TUBE ? 2.0 : 1.0), 1.0);
+    bool rect = type == LIGHT_RECT;
+    float area = rect ? rectAreaM2(light) : diskAreaM2(light);
+    float extent = rect ? length(light.sizeM) : light.sizeM.x;
+    float facing = -dot(light.dirWs, dir);
+    float solidAngle = facing > 0.0 ? area * max(facing, 1.0e-4) / (distance2 + area * KX_INV_PI) : 0.0;
+    LightProxy proxy = roundProxy(dir, solidAngle, min(extent * invDistance, 1.0));
+    if (rect) {
+        mat3 frame = lightFrame(light);
+        bool wide = light.sizeM.x > light.sizeM.y;
+        vec3 along = wide ? frame[0] : frame[1];
+        along = along - dir * dot(along, dir);
+        proxy.longDirWs = along * inversesqrt(max(dot(along, along), 1.0e-12));
+        proxy.sinShort = min(min(light.sizeM.x, light.sizeM.y) * invDistance, 1.0);
+    }
     return proxy;
 }
 
@@ -52,18 +89,22 @@ KX_INLINE float proxyWeight(LightProxy proxy, ShadingPoint point, vec3 emission,
     float cosine = dot(point.normalWs, proxy.dirWs);
     if (cosine + proxy.sinRadius <= 0.0 || proxy.solidAngle <= 0.0)
         return 0.0;
-    float clipped = max(horizonCosine(cosine, proxy.sinRadius), 1.0e-5);
+    vec2 cut = horizonCut(cosine, proxy.sinRadius);
+    float visible = proxy.solidAngle * max(cut.x, 1.0e-4);
+    float diffuse = max(cut.y, 1.0e-5);
     // The lobe sees the light's point nearest to the mirror direction, and is as wide as both together.
     vec3 mirrorDir = point.normalWs * (2.0 * dot(point.normalWs, point.viewDirWs)) - point.viewDirWs;
     vec3 aside = mirrorDir - proxy.dirWs * dot(mirrorDir, proxy.dirWs);
-    float asideLength = length(aside);
-    float reach = min(proxy.sinRadius, asideLength);
-    vec3 lightDir = proxy.dirWs + (asideLength > 1.0e-6 ? aside * (reach / asideLength) : vec3(0.0));
+    float along = dot(aside, proxy.longDirWs);
+    vec3 across = aside - proxy.longDirWs * along;
+    float acrossLength = max(length(across), 1.0e-6);
+    vec3 lightDir = proxy.dirWs + proxy.longDirWs * clamp(along, -proxy.sinRadius, proxy.sinRadius) +
+                    across * (min(proxy.sinShort, acrossLength) / acrossLength);
     lightDir = normalize(lightDir + point.normalWs * max(1.0e-3 - dot(point.normalWs, lightDir), 0.0));
-    float wide = min(point.alpha + 0.5 * proxy.sinRadius, 1.0);
+    float wide = min(point.alpha + 0.25 * (proxy.sinRadius + proxy.sinShort), 1.0);
     vec2 lobe = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, lightDir, wide);
     float specular = lobe.x * mix(f0, 1.0, lobe.y);
-    return luminance(emission) * proxy.solidAngle * (diffuseAlbedo * KX_INV_PI * clipped + specular);
+    return luminance(emission) * visible * (diffuseAlbedo * KX_INV_PI * diffuse + specular);
 }
 
 #endif

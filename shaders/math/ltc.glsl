@@ -65,9 +65,11 @@ KX_INLINE float ltcDensity(LtcLobe lobe, vec3 dirWs) {
 }
 
 // An edge's share of the vector irradiance of a polygon of unit radiance, doubled: the unit normal of the plane
-// through a, b and the receiver times the angle between them. Any lengths but 0.
+// through a, b and the receiver times the angle between them. Any lengths but 0. The difference of two near points
+// is exact, their cross product is not: written with it, a light of 1/1000 of its distance keeps four digits in float
+// where it had none.
 KX_INLINE vec3 edgeVectorIrradiance(vec3 a, vec3 b) {
-    vec3 across = cross(a, b);
+    vec3 across = cross(a, b - a);
     float sine = length(across);
     float angle = angleFromCosSin(dot(a, b), sine);
     return sine > 0.0 ? across * (angle / sine) : vec3(0.0);

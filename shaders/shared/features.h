@@ -9,6 +9,26 @@
 KX_SHARED_BEGIN
 
 const int FEATURE_ALPHA_MASK = 0; // some instance is alpha-tested
+const int FEATURE_TEXTURES = 1;   // some material has a texture
+const int FEATURE_DIRECTIONAL_LIGHTS = 2;
+const int FEATURE_SPHERE_LIGHTS = 3;
+const int FEATURE_SPOT_LIGHTS = 4;
+const int FEATURE_TUBE_LIGHTS = 5;
+const int FEATURE_RECT_LIGHTS = 6;
+const int FEATURE_DISK_LIGHTS = 7;
+const int FEATURE_COUNT = 8;
+
+// Choices of the frame that are specialization constants too, beyond the features.
+const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform block holds
+const int CHOICE_ESTIMATOR = 33;         // ESTIMATOR_*
+const int CHOICE_VIEW = 34;              // VIEW_* of shared/views.h
+const int CHOICE_TONE_MAP = 35;          // TONE_MAP_*
+
+const int ESTIMATOR_SPLIT = 0; // analytic irradiance times mean visibility
+const int ESTIMATOR_TRUE = 1;  // the BRDF at the sampled point
+
+const int TONE_MAP_NEUTRAL = 0;
+const int TONE_MAP_NONE = 1;
 
 KX_SHARED_END
 

@@ -1,0 +1,115 @@
+// Cameras, see camera.h.
+#include "renderer/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+namespace kilolux {
+
+Camera derivedCamera(const Scene& scene) {
+    const Bounds bounds = worldBounds(scene);
+    const glm::dvec3 center = 0.5 * (bounds.min + bounds.max);
+    const double radiusM = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
+    Camera camera;
+    camera.name = "derived";
+    camera.yfovRad = glm::radians(45.0);
+    const double distanceM = 1.1 * radiusM / std::sin(0.5 * camera.yfovRad);
+    const glm::dvec3 toCamera = glm::normalize(glm::dvec3(0.65, 0.45, 1.0));
+    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), toCamera));
+    const glm::dvec3 up = glm::cross(toCamera, right);
+    camera.worldFromCamera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(toCamera, 0),
+                                        glm::dvec4(center + toCamera * distanceM, 1));
+    camera.znearM = 1e-3 * distanceM;
+    return camera;
+}
+
+glm::dvec3 anchorFor(const Camera& camera, double gridM) {
+    const glm::dvec3 position(camera.worldFromCamera[3]);
+    return glm::round(position / gridM) * gridM;
+}
+
+void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::dvec3& anchor, int widthPx,
+               int heightPx, glm::dvec2 jitterPx) {
+    const glm::dvec3 right(camera.worldFromCamera[0]), up(camera.worldFromCamera[1]),
+        back(camera.worldFromCamera[2]);
+    const glm::dvec3 position = glm::dvec3(camera.worldFromCamera[3]) - anchor;
+    const double aspect = double(widthPx) / double(heightPx);
+    // Half extents of the picture plane: at distance 1, or in metres for orthographic cameras.
+    const double halfY = camera.orthographic ? camera.ymagM : std::tan(0.5 * camera.yfovRad);
+    const double halfX = halfY * aspect;
+    const glm::dvec3 stepX = right * (2.0 * halfX / widthPx), stepY = up * (-2.0 * halfY / heightPx);
+    const glm::dvec3 corner = right * (-halfX) + up * halfY + jitterPx.x * stepX + jitterPx.y * stepY;
+    const glm::dvec3 zero(0.0);
+    frame.originBase = camera.orthographic ? position + corner : position;
+    frame.originStepX = camera.orthographic ? stepX : zero;
+    frame.originStepY = camera.orthographic ? stepY : zero;
+    frame.dirBase = camera.orthographic ? -back : -back + corner;
+    frame.dirStepX = camera.orthographic ? zero : stepX;
+    frame.dirStepY = camera.orthographic ? zero : stepY;
+    frame.zNearM = float(camera.znearM);
+    frame.pixelAngleRad = camera.orthographic ? 0.0f : float(2.0 * halfY / heightPx);
+
+    const glm::dmat4 world = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0),
+                                        glm::dvec4(position, 1));
+    // Reversed depth: near plane at 1, far at 0. Vulkan's clip space has y down.
+    glm::dmat4 clip(0.0);
+    const glm::dvec2 shift(-2.0 * jitterPx.x / widthPx, -2.0 * jitterPx.y / heightPx);
+    if (camera.orthographic) {
+        const double zFarM = camera.zfarM.value_or(camera.znearM + 1e5);
+        const double depth = zFarM - camera.znearM;
+        clip[0][0] = 1.0 / halfX;
+        clip[1][1] = -1.0 / halfY;
+        clip[2][2] = 1.0 / depth;
+        clip[3] = glm::dvec4(shift, zFarM / depth, 1.0);
+    } else {
+        clip[0][0] = 1.0 / halfX;
+        clip[1][1] = -1.0 / halfY;
+        clip[2] = glm::dvec4(-shift, 0.0, -1.0);
+        clip[3][2] = camera.znearM;
+    }
+    frame.clipFromWorld = glm::mat4(clip * glm::inverse(world));
+    frame.size = {unsigned(widthPx), unsigned(heightPx)};
+    frame.tiles = {unsigned(widthPx + 7) / 8, unsigned(heightPx + 7) / 8};
+}
+
+namespace {
+
+// The four-term window of Harris 1978, over |x| <= radius.
+double blackmanHarris(double x, double radius) {
+    const double t = glm::two_pi<double>() * (0.5 + 0.5 * x / radius);
+    return 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2 * t) - 0.01168 * std::cos(3 * t);
+}
+
+constexpr double kBlackmanHarrisRadiusPx = 1.5;
+
+// Inverse of the filter's cumulative distribution, by a table of 1024 steps.
+double sampleBlackmanHarris(double u) {
+    static const std::array<double, 1025> cumulative = [] {
+        std::array<double, 1025> sums{};
+        for (int i = 0; i < 1024; ++i) {
+            const double x = kBlackmanHarrisRadiusPx * ((i + 0.5) / 512.0 - 1.0);
+            sums[std::size_t(i) + 1] = sums[std::size_t(i)] + blackmanHarris(x, kBlackmanHarrisRadiusPx);
+        }
+        for (double& sum : sums) sum /= sums[1024];
+        return sums;
+    }();
+    const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);
+    const auto i = std::size_t(above - cumulative.begin());
+    const double within = (u - cumulative[i - 1]) / std::max(cumulative[i] - cumulative[i - 1], 1e-12);
+    return kBlackmanHarrisRadiusPx * ((double(i - 1) + std::clamp(within, 0.0, 1.0)) / 512.0 - 1.0);
+}
+
+} // namespace
+
+glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index, std::uint32_t seed) {
+    // R2 sequence (Roberts 2018, the plastic number), turned by the seed: even over few samples.
+    const double turn = double(seed) * 0.38196601125;
+    const double u = std::fmod(0.5 + turn + double(index) * 0.7548776662466927, 1.0);
+    const double v = std::fmod(0.5 + turn + double(index) * 0.5698402909980532, 1.0);
+    if (filter == PixelFilter::Box) return {u - 0.5, v - 0.5};
+    return {sampleBlackmanHarris(u), sampleBlackmanHarris(v)};
+}
+
+} // namespace kilolux

@@ -1,0 +1,30 @@
+// From a document camera to what a frame needs: rays per pixel and the clip matrix, both relative to an anchor
+// near the camera, so that scenes far from the origin keep their precision.
+#pragma once
+
+#include "renderer/document/scene.h"
+#include "renderer/settings.h"
+#include "shaders/shared/frame.h"
+
+#include <glm/glm.hpp>
+
+namespace kilolux {
+
+// A camera that shows the whole scene from a corner, for files without one. Named "derived".
+Camera derivedCamera(const Scene& scene);
+
+// The point that GPU positions are relative to: the camera's position rounded to a coarse grid, so that it
+// moves in steps; the origin itself while the camera is within `gridM` of it.
+glm::dvec3 anchorFor(const Camera& camera, double gridM = 256.0);
+
+// Fills camera rays, matrices and sizes. `jitterPx` moves the sample position within the pixel, in pixels.
+// Pictures of another shape than the camera's keep its vertical field of view.
+void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::dvec3& anchor, int widthPx,
+               int heightPx, glm::dvec2 jitterPx);
+
+// Sub-pixel offset of the i-th progressive sample, in pixels about the centre, distributed as the filter
+// (filter importance sampling): the plain mean of samples is then the filtered picture.
+
+glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index, std::uint32_t seed);
+
+} // namespace kilolux

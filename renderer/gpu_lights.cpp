@@ -1,0 +1,211 @@
+// Light records, see gpu_lights.h.
+#include "renderer/gpu_lights.h"
+
+#include "renderer/document/light_units.h"
+#include "renderer/lights_cpp/lights_f64.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace kilolux {
+
+namespace {
+
+shared::uint typeCode(LightType type) {
+    switch (type) {
+    case LightType::Directional: return shared::LIGHT_DIRECTIONAL;
+    case LightType::Sphere: return shared::LIGHT_SPHERE;
+    case LightType::Spot: return shared::LIGHT_SPOT;
+    case LightType::Tube: return shared::LIGHT_TUBE;
+    case LightType::Rect: return shared::LIGHT_RECT;
+    case LightType::Disk: return shared::LIGHT_DISK;
+    }
+    return shared::LIGHT_SPHERE;
+}
+
+glm::vec2 sizeOf(const LightDef& def) {
+    switch (def.type) {
+    case LightType::Directional: return {float(std::tan(0.5 * def.angularDiameterRad)), 0.0f};
+    case LightType::Sphere:
+    case LightType::Spot: return {float(def.radiusM), 0.0f};
+    case LightType::Tube: return {float(def.radiusM), float(0.5 * def.lengthM)};
+    case LightType::Rect: return {float(0.5 * def.widthM), float(0.5 * def.heightM)};
+    case LightType::Disk: return {float(0.5 * def.widthM), 0.0f};
+    }
+    return {0.0f, 0.0f};
+}
+
+glm::vec2 shapingOf(const LightDef& def) {
+    if (def.type == LightType::Rect) return {float(def.barnDoorAngleRad), float(def.barnDoorLengthM)};
+    if (def.type != LightType::Spot) return {0.0f, 0.0f};
+    const double outer = std::cos(def.outerConeRad);
+    const double scale = 1.0 / std::max(0.001, std::cos(def.innerConeRad) - outer);
+    return {float(scale), float(-outer * scale)};
+}
+
+// Half of the source's largest extent, for distances that count from its surface.
+double extentM(const LightDef& def) {
+    switch (def.type) {
+    case LightType::Tube: return 0.5 * def.lengthM + def.radiusM;
+    case LightType::Rect: return 0.5 * std::hypot(def.widthM, def.heightM);
+    case LightType::Disk: return 0.5 * def.widthM;
+    default: return def.radiusM;
+    }
+}
+
+shared::LightHot makeHot(const LightDef& def, const LightNode& light, const glm::dmat4& worldFromNode,
+                         const glm::dvec3& anchor, std::optional<double> rangeM) {
+    shared::LightHot hot{};
+    const bool directional = def.type == LightType::Directional;
+    if (!directional) hot.positionWs = glm::vec3(glm::dvec3(worldFromNode[3]) - anchor);
+    hot.invRange = rangeM && *rangeM > 0.0 && !directional ? float(1.0 / *rangeM) : 0.0f;
+    const auto axis = [&](int column, const glm::dvec3& otherwise) {
+        const glm::dvec3 v(worldFromNode[column]);
+        const double length = glm::length(v);
+        return length > 0.0 ? v / length : otherwise;
+    };
+    hot.dirWs = glm::vec3(-axis(2, {0, 0, 1}));
+    hot.tangentOct = f64::packOct16(axis(0, {1, 0, 0}));
+    hot.intensity = glm::vec3(emittedColor(def) * baseIntensity(def));
+    hot.typeFlags = typeCode(def.type) | (light.muted ? shared::LIGHT_FLAG_MUTED : 0u);
+    hot.sizeM = sizeOf(def);
+    hot.shaping = shapingOf(def);
+    return hot;
+}
+
+// A double copy of a record, for the functions of f64.
+f64::LightHot inDouble(const shared::LightHot& hot) {
+    f64::LightHot result{};
+    result.positionWs = glm::dvec3(hot.positionWs);
+    result.invRange = hot.invRange;
+    result.dirWs = glm::dvec3(hot.dirWs);
+    result.tangentOct = hot.tangentOct;
+    result.intensity = glm::dvec3(hot.intensity);
+    result.typeFlags = hot.typeFlags;
+    result.sizeM = glm::dvec2(hot.sizeM);
+    result.shaping = glm::dvec2(hot.shaping);
+    return result;
+}
+
+struct SurfacePoint {
+    glm::dvec3 position, normal;
+};
+
+// Points spread evenly over the area of all visible geometry; the same for the same scene.
+std::vector<SurfacePoint> spreadPoints(const Scene& scene, int count) {
+    struct Patch {
+        double sumArea;
+        glm::dvec3 a, ab, ac;
+    };
+    std::vector<Patch> patches;
+    double area = 0.0;
+    for (const Node& node : scene.nodes) {
+        if (!node.visible || node.mesh < 0) continue;
+        for (const Primitive& primitive : scene.meshes[std::size_t(node.mesh)]->primitives) {
+            // A share of the triangles of large meshes is enough to place an exposure.
+            const std::size_t step = std::max<std::size_t>(1, primitive.indices.size() / 3 / 2000);
+            for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3 * step) {
+                const auto corner = [&](std::size_t k) {
+                    return glm::dvec3(node.worldFromNode *
+                                      glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[i + k]]), 1.0));
+                };
+                const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
+                const double triangleArea = 0.5 * glm::length(glm::cross(ab, ac)) * double(step);
+                if (!(triangleArea > 0.0) || !std::isfinite(triangleArea)) continue;
+                area += triangleArea;
+                patches.push_back({area, a, ab, ac});
+            }
+        }
+    }
+    std::vector<SurfacePoint> points;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (int i = 0; i < count && !patches.empty(); ++i) {
+        const double target = uniform(random) * area;
+        const auto found = std::lower_bound(patches.begin(), patches.end() - 1, target,
+                                            [](const Patch& patch, double value) { return patch.sumArea < value; });
+        const double root = std::sqrt(uniform(random)), v = uniform(random);
+        points.push_back({found->a + root * (1.0 - v) * found->ab + root * v * found->ac,
+                          glm::normalize(glm::cross(found->ab, found->ac))});
+    }
+    return points;
+}
+
+constexpr double kMiddleGrey = 0.18;
+constexpr double kRangeShare = 1e-3;
+
+} // namespace
+
+double exposureFromEv100(double ev100) { return 1.0 / (1.2 * std::exp2(ev100)); }
+
+DerivedRange deriveRange(const LightDef& def, double exposureEv100) {
+    // A middle grey surface (reflectance 0.18) shown as middle grey has luminance 0.18 / exposure.
+    const double greyLux = glm::pi<double>() * kMiddleGrey / (0.18 * exposureFromEv100(exposureEv100));
+    const double limitLux = kRangeShare * greyLux;
+    const double candela = luminanceOf(emittedColor(def)) * baseIntensity(def);
+    DerivedRange range;
+    range.rangeM = std::max(std::sqrt(std::max(candela, 0.0) / limitLux) + extentM(def), 1e-3);
+    range.lostLux = limitLux;
+    return range;
+}
+
+double deriveExposureEv100(const Scene& scene) {
+    std::vector<f64::LightHot> lights;
+    for (const LightNode& light : scene.lights) {
+        if (light.muted) continue;
+        const LightDef& def = scene.lightDefs[std::size_t(light.def)];
+        lights.push_back(inDouble(makeHot(def, light, scene.nodes[std::size_t(light.node)].worldFromNode,
+                                          glm::dvec3(0.0), def.rangeM)));
+    }
+    if (lights.empty()) return 0.0;
+    // A thousand points times the lights, bounded for scenes of ten thousand lights.
+    const int count = int(std::clamp<std::size_t>(200000 / lights.size(), 64, 1024));
+    std::vector<double> lux;
+    for (const SurfacePoint& point : spreadPoints(scene, count)) {
+        // Either side may be the one that is seen.
+        double best = 0.0;
+        for (const double side : {1.0, -1.0}) {
+            const f64::ShadingPoint shading =
+                f64::makeShadingPoint(point.position, side * point.normal, side * point.normal, 1.0);
+            double sum = 0.0;
+            for (const f64::LightHot& light : lights) {
+                const f64::LightIrradiance lit =
+                    f64::lightIrradiance(light, shading, f64::makeLtcLobe(shading));
+                sum += f64::luminance(lit.emission) * lit.diffuse;
+            }
+            best = std::max(best, sum);
+        }
+        if (best > 0.0 && std::isfinite(best)) lux.push_back(best);
+    }
+    if (lux.empty()) return 0.0;
+    // The upper third of what is lit: unshadowed light overstates, and subjects are lit better than the rest.
+    const auto place = lux.begin() + std::ptrdiff_t(lux.size() * 7 / 10);
+    std::nth_element(lux.begin(), place, lux.end());
+    // That illuminance on a reflectance of 0.4 shall be shown at 0.25.
+    const double luminanceNit = *place * 0.4 / glm::pi<double>();
+    return std::log2(luminanceNit / (1.2 * 0.25));
+}
+
+GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100) {
+    GpuLights result;
+    for (std::size_t slot = 0; slot < scene.lights.size(); ++slot) {
+        const LightNode& light = scene.lights[slot];
+        const LightDef& def = scene.lightDefs[std::size_t(light.def)];
+        std::optional<double> rangeM = def.rangeM;
+        if (!rangeM && def.type != LightType::Directional) {
+            rangeM = deriveRange(def, exposureEv100).rangeM;
+            ++result.derivedRanges;
+        }
+        const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
+        result.hot.push_back(makeHot(def, light, world, anchor, rangeM));
+        shared::LightCold cold{};
+        cold.rayEndBiasM = float(def.rayEndBiasM);
+        cold.node = std::uint32_t(slot);
+        cold.fluxLm = float(fluxLumen(def) * luminanceOf(emittedColor(def)));
+        result.cold.push_back(cold);
+    }
+    return result;
+}
+
+} // namespace kilolux

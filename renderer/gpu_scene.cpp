@@ -1,0 +1,281 @@
+// Scene upload, see gpu_scene.h. Textures are in gpu_textures.cpp.
+#include "renderer/gpu_scene.h"
+
+#include "renderer/gpu_lights.h"
+#include "renderer/gpu_textures.h"
+#include "renderer/lights_cpp/lights_f32.h"
+#include "renderer/lights_cpp/ltc_table.h"
+#include "shaders/shared/features.h"
+
+#include <glm/gtc/packing.hpp>
+#include <map>
+
+namespace kilolux {
+
+namespace {
+
+using namespace shared;
+
+constexpr VkBufferUsageFlags kTexels = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+
+template<typename T>
+gpu::Buffer texelBuffer(gpu::Device& device, const char* name, const std::vector<T>& data, VkFormat format,
+                        std::string_view cause) {
+    gpu::BufferDesc desc{name, data.size() * sizeof(T), kTexels, gpu::MemoryUse::DeviceOnly, cause, format};
+    gpu::Buffer buffer(device, desc);
+    buffer.upload(data);
+    return buffer;
+}
+
+template<typename T>
+gpu::Buffer storageBuffer(gpu::Device& device, const char* name, const std::vector<T>& data,
+                          std::string_view cause) {
+    gpu::Buffer buffer(device, {name, data.size() * sizeof(T), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                gpu::MemoryUse::DeviceOnly, cause});
+    buffer.upload(data);
+    return buffer;
+}
+
+// The two texels of shaders/shared/geometry.h.
+void appendVertices(const Primitive& primitive, std::vector<glm::uvec4>& out) {
+    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+        const glm::vec3 p = primitive.positions[i];
+        const glm::vec3 n = i < primitive.normals.size() ? primitive.normals[i] : glm::vec3(0, 1, 0);
+        const glm::vec4 t = i < primitive.tangents.size() ? primitive.tangents[i] : glm::vec4(1, 0, 0, 1);
+        const glm::vec2 uv = i < primitive.uv0.size() ? primitive.uv0[i] : glm::vec2(0.0f);
+        const glm::vec4 color = i < primitive.colors.size() ? primitive.colors[i] : glm::vec4(1.0f);
+        out.emplace_back(glm::floatBitsToUint(p.x), glm::floatBitsToUint(p.y), glm::floatBitsToUint(p.z),
+                         f32::packOct16(n));
+        const std::uint32_t tangent = (f32::packOct16(glm::vec3(t)) & ~1u) | (t.w < 0.0f ? 1u : 0u);
+        out.emplace_back(tangent, glm::floatBitsToUint(uv.x), glm::floatBitsToUint(uv.y),
+                         glm::packUnorm4x8(glm::clamp(color, 0.0f, 1.0f)));
+    }
+}
+
+struct PrimitivePlace {
+    std::uint32_t firstVertex, firstIndex, firstUv1;
+};
+
+Bounds boundsOf(const Primitive& primitive, const glm::dmat4& world) {
+    Bounds bounds{glm::dvec3(1e300), glm::dvec3(-1e300)};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 local(corner & 1 ? primitive.boundsMax.x : primitive.boundsMin.x,
+                               corner & 2 ? primitive.boundsMax.y : primitive.boundsMin.y,
+                               corner & 4 ? primitive.boundsMax.z : primitive.boundsMin.z);
+        const glm::dvec3 p(world * glm::dvec4(local, 1.0));
+        bounds.min = glm::min(bounds.min, p);
+        bounds.max = glm::max(bounds.max, p);
+    }
+    return bounds;
+}
+
+const Material& materialOf(const Scene& scene, int index) {
+    static const Material kDefault;
+    return index >= 0 ? scene.materials[std::size_t(index)] : kDefault;
+}
+
+GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, const Material& material,
+                         const PrimitivePlace& place, const glm::dvec3& anchor, std::uint32_t defaultMaterial) {
+    glm::dmat4 m = instance.worldFromLocal;
+    m[3] -= glm::dvec4(anchor, 0.0);
+    GpuInstance gpu{};
+    gpu.row0 = glm::vec4(m[0][0], m[1][0], m[2][0], m[3][0]);
+    gpu.row1 = glm::vec4(m[0][1], m[1][1], m[2][1], m[3][1]);
+    gpu.row2 = glm::vec4(m[0][2], m[1][2], m[2][2], m[3][2]);
+    gpu.firstVertex = place.firstVertex;
+    gpu.firstIndex = place.firstIndex;
+    gpu.firstUv1 = place.firstUv1;
+    gpu.material = instance.material >= 0 ? std::uint32_t(instance.material) : defaultMaterial;
+    gpu.triangleCount = instance.triangleCount;
+    gpu.flags = (glm::determinant(glm::dmat3(m)) < 0.0 ? INSTANCE_MIRRORED : 0u) |
+                (material.doubleSided ? INSTANCE_DOUBLE_SIDED : 0u) |
+                (instance.role == SurfaceRole::AlphaTested ? INSTANCE_ALPHA_TESTED : 0u) |
+                (primitive.tangents.empty() ? 0u : INSTANCE_HAS_TANGENTS) |
+                (primitive.colors.empty() ? 0u : INSTANCE_HAS_COLORS);
+    return gpu;
+}
+
+} // namespace
+
+Result<std::unique_ptr<GpuScene>> GpuScene::create(gpu::Device& device, const Scene& scene,
+                                                   const glm::dvec3& anchor, double exposureEv100,
+                                                   const std::vector<bool>& moving) {
+    std::unique_ptr<GpuScene> result(new GpuScene(device, anchor));
+    result->instances_ = enumerateInstances(scene);
+    std::vector<std::uint32_t> placeOfImage;
+    if (auto error = result->uploadTextures(scene, placeOfImage)) return *error;
+    result->uploadGeometry(scene);
+    result->uploadMaterials(scene, placeOfImage);
+    result->world_ = buildWorld(scene, result->instances_, moving, anchor);
+    result->rayWorld_ = std::make_unique<GpuRayWorld>(device, result->world_);
+    result->world_.nodes.resize(result->world_.topNodeCapacity);
+    result->world_.nodes.shrink_to_fit();
+    result->world_.pairs = {};
+    result->world_.pairIds = {};
+    result->world_.alpha = {};
+    result->decideFeatures(scene);
+    if (auto error = result->uploadLights(scene, exposureEv100)) return *error;
+    return result;
+}
+
+void GpuScene::uploadGeometry(const Scene& scene) {
+    std::map<std::pair<int, int>, PrimitivePlace> places;
+    std::vector<glm::uvec4> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::vec2> uv1s;
+    std::vector<GpuInstance> gpuInstances;
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        const Instance& instance = instances_[i];
+        const Primitive& primitive = primitiveOf(scene, instance);
+        const auto [place, isNew] = places.try_emplace({instance.mesh, instance.primitive});
+        if (isNew) {
+            place->second = {std::uint32_t(vertices.size() / VERTEX_TEXELS), std::uint32_t(indices.size()),
+                             primitive.uv1.empty() ? NO_OFFSET : std::uint32_t(uv1s.size())};
+            appendVertices(primitive, vertices);
+            indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
+            uv1s.insert(uv1s.end(), primitive.uv1.begin(), primitive.uv1.end());
+        }
+        const Material& material = materialOf(scene, instance.material);
+        const GpuInstance gpu = makeInstance(instance, primitive, material, place->second, anchor_,
+                                             std::uint32_t(scene.materials.size()));
+        gpuInstances.push_back(gpu);
+        triangles_ += instance.triangleCount;
+        const Bounds bounds = boundsOf(primitive, instance.worldFromLocal);
+        DrawItem draw;
+        draw.instance = std::uint32_t(i);
+        draw.firstIndex = gpu.firstIndex;
+        draw.indexCount = instance.triangleCount * 3;
+        draw.vertexOffset = std::int32_t(gpu.firstVertex);
+        draw.cullBackFaces = !material.doubleSided;
+        draw.clockwise = gpu.flags & INSTANCE_MIRRORED;
+        draw.emits = material.emissiveNit != glm::dvec3(0.0);
+        draw.boundsMin = bounds.min;
+        draw.boundsMax = bounds.max;
+        (instance.role == SurfaceRole::Absent ? transparent_ : opaque_).push_back(draw);
+    }
+    vertexBuffer_ = texelBuffer(device_, "vertices", vertices, VK_FORMAT_R32G32B32A32_UINT, "geometry");
+    gpu::BufferDesc indexDesc{"indices", indices.size() * 4, kTexels | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                              gpu::MemoryUse::DeviceOnly, "geometry", VK_FORMAT_R32_UINT};
+    indexBuffer_ = gpu::Buffer(device_, indexDesc);
+    indexBuffer_.upload(indices);
+    uv1Buffer_ = texelBuffer(device_, "uv1s", uv1s, VK_FORMAT_R32G32_SFLOAT, "geometry");
+    instanceBuffer_ = storageBuffer(device_, "instances", gpuInstances, "geometry");
+}
+
+void GpuScene::uploadMaterials(const Scene& scene, const std::vector<std::uint32_t>& placeOfImage) {
+    std::vector<GpuMaterial> materials;
+    for (std::size_t i = 0; i <= scene.materials.size(); ++i) {
+        const Material& material = materialOf(scene, i < scene.materials.size() ? int(i) : -1);
+        GpuMaterial gpu{};
+        gpu.baseColor = glm::vec4(material.baseColorFactor);
+        gpu.emissive = glm::vec3(material.emissiveNit);
+        gpu.metallic = float(material.metallicFactor);
+        gpu.roughness = float(material.roughnessFactor);
+        gpu.normalScale = float(material.normalScale);
+        const bool transmissive = material.transmission > 0.0;
+        gpu.opacity = float(transmissive ? 1.0 - material.transmission : material.baseColorFactor.a);
+        gpu.flags = transmissive ? MATERIAL_TRANSMISSIVE : 0u;
+        gpu.baseColorTexture = makeTextureRef(material.baseColor, placeOfImage);
+        gpu.metallicRoughnessTexture = makeTextureRef(material.metallicRoughness, placeOfImage);
+        gpu.normalTexture = makeTextureRef(material.normal, placeOfImage);
+        gpu.emissiveTexture = makeTextureRef(material.emissive, placeOfImage);
+        materials.push_back(gpu);
+    }
+    materialBuffer_ = storageBuffer(device_, "materials", materials, "geometry");
+}
+
+std::optional<Error> GpuScene::uploadTextures(const Scene& scene, std::vector<std::uint32_t>& placeOfImage) {
+    Result<TextureArrays> arrays = makeTextureArrays(device_, scene);
+    if (!arrays) return Error{arrays.error()};
+    textures_ = std::move(arrays.value().images);
+    placeOfImage = std::move(arrays.value().placeOfImage);
+    return std::nullopt;
+}
+
+std::optional<Error> GpuScene::uploadLights(const Scene& scene, double exposureEv100) {
+    GpuLights lights = makeGpuLights(scene, anchor_, exposureEv100);
+    lightCount_ = std::uint32_t(lights.hot.size());
+    derivedRanges_ = lights.derivedRanges;
+    // The uniform block is as large as the shader declares it, whatever the scene holds.
+    lights.hot.resize(std::max<std::size_t>(lights.hot.size(), LIGHT_UNIFORM_SLOTS),
+                      LightHot{.typeFlags = LIGHT_FLAG_DEAD});
+    gpu::BufferDesc desc{"lightsHot", lights.hot.size() * sizeof(LightHot),
+                         kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::DeviceOnly, "lights",
+                         VK_FORMAT_R32G32B32A32_UINT};
+    lightsHot_ = gpu::Buffer(device_, desc);
+    lightsHot_.upload(lights.hot);
+    lightsCold_ = storageBuffer(device_, "lightsCold", lights.cold, "lights");
+    const LtcTable& table = boundLtcTable();
+    const auto image = [&](const char* name, const std::vector<glm::vec4>& texels) {
+        gpu::Image result(device_, {.name = name,
+                                    .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                    .width = std::uint32_t(table.width),
+                                    .height = std::uint32_t(table.height),
+                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                    .cause = "lights"});
+        result.upload(std::as_bytes(std::span(texels)));
+        return result;
+    };
+    ltcParameters_ = image("ltcParameters", table.parameters);
+    ltcScales_ = image("ltcScales", table.scales);
+    return std::nullopt;
+}
+
+void GpuScene::decideFeatures(const Scene& scene) {
+    for (int feature = 0; feature < FEATURE_COUNT; ++feature) features_[std::uint32_t(feature)] = 0;
+    features_[FEATURE_ALPHA_MASK] = rayWorld_->hasAlpha();
+    for (const Instance& instance : instances_) {
+        const Material& material = materialOf(scene, instance.material);
+        for (const TextureRef* ref :
+             {&material.baseColor, &material.metallicRoughness, &material.normal, &material.emissive}) {
+            if (ref->image >= 0) features_[FEATURE_TEXTURES] = 1;
+        }
+    }
+    for (const LightNode& light : scene.lights) {
+        switch (scene.lightDefs[std::size_t(light.def)].type) {
+        case LightType::Directional: features_[FEATURE_DIRECTIONAL_LIGHTS] = 1; break;
+        case LightType::Sphere: features_[FEATURE_SPHERE_LIGHTS] = 1; break;
+        case LightType::Spot: features_[FEATURE_SPOT_LIGHTS] = 1; break;
+        case LightType::Tube: features_[FEATURE_TUBE_LIGHTS] = 1; break;
+        case LightType::Rect: features_[FEATURE_RECT_LIGHTS] = 1; break;
+        case LightType::Disk: features_[FEATURE_DISK_LIGHTS] = 1; break;
+        }
+    }
+    const bool fits = scene.lights.size() <= LIGHT_UNIFORM_SLOTS &&
+                      device_.limits().maxUniformBufferRange >= LIGHT_UNIFORM_SLOTS * sizeof(LightHot);
+    features_[CHOICE_LIGHTS_IN_UNIFORM] = fits;
+}
+
+namespace {
+void append(gpu::Bindings& bindings, const gpu::Bindings& more) {
+    bindings.insert(bindings.end(), more.begin(), more.end());
+}
+} // namespace
+
+gpu::Bindings GpuScene::geometryBindings() const {
+    return {{"vertices", vertexBuffer_}, {"indices", indexBuffer_}, {"Instances", instanceBuffer_}};
+}
+
+gpu::Bindings GpuScene::surfaceBindings() const {
+    static constexpr std::array<std::string_view, 4> linear{"textures0", "textures1", "textures2", "textures3"};
+    static constexpr std::array<std::string_view, 4> srgb{"texturesSrgb0", "texturesSrgb1", "texturesSrgb2",
+                                                          "texturesSrgb3"};
+    gpu::Bindings bindings{{"Materials", materialBuffer_}, {"uv1s", uv1Buffer_}};
+    append(bindings, geometryBindings());
+    for (std::size_t i = 0; i < textures_.size(); ++i) {
+        if (!textures_[i]) continue;
+        bindings.emplace_back(linear[i], textures_[i], gpu::SamplerKind::LinearRepeat);
+        bindings.push_back(gpu::Binding::second(srgb[i], textures_[i], gpu::SamplerKind::LinearRepeat));
+    }
+    return bindings;
+}
+
+gpu::Bindings GpuScene::lightBindings() const {
+    return {{"LightsHot", lightsHot_},
+            {"lightsHotTexels", lightsHot_},
+            {"LightsCold", lightsCold_},
+            {"ltcParameters", ltcParameters_, gpu::SamplerKind::LinearClamp},
+            {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp}};
+}
+
+} // namespace kilolux

@@ -1,0 +1,77 @@
+// A scene on the device: vertices, instances, materials, textures, lights and the ray world, each in the buffers
+// that the passes bind by name.
+#pragma once
+
+#include "renderer/accel_gpu/gpu_ray_world.h"
+#include "renderer/document/scene.h"
+#include "renderer/gpu/pass.h"
+#include "shaders/shared/geometry.h"
+
+#include <array>
+
+namespace kilolux {
+
+// Draws of one kind of instance, which the raster passes walk.
+struct DrawItem {
+    std::uint32_t instance = 0;
+    std::uint32_t firstIndex = 0;
+    std::uint32_t indexCount = 0;
+    std::int32_t vertexOffset = 0;
+    bool cullBackFaces = false;
+    bool clockwise = false; // mirrored
+    bool emits = false;     // transparent only
+    glm::dvec3 boundsMin{0.0}; // world, metres
+    glm::dvec3 boundsMax{0.0};
+};
+
+class GpuScene {
+  public:
+    // `moving[i]` as in buildWorld(); empty for none. Errors: too many textures for the device's arrays.
+    // The LTC table must be bound (ltc_table.h).
+    static Result<std::unique_ptr<GpuScene>> create(gpu::Device& device, const Scene& scene,
+                                                    const glm::dvec3& anchor, double exposureEv100,
+                                                    const std::vector<bool>& moving = {});
+
+    const std::vector<Instance>& instances() const { return instances_; }
+    const std::vector<DrawItem>& opaqueDraws() const { return opaque_; }
+    const std::vector<DrawItem>& transparentDraws() const { return transparent_; }
+    std::uint32_t lightCount() const { return lightCount_; }
+    int derivedRanges() const { return derivedRanges_; }
+    std::size_t triangles() const { return triangles_; }
+    const BvhStats& bvhStats() const { return world_.stats; }
+    const glm::dvec3& anchor() const { return anchor_; }
+
+    // Features and choices that the scene decides.
+    const gpu::SpecValues& features() const { return features_; }
+
+    gpu::Bindings geometryBindings() const; // shaders/lib/geometry.glsl
+    gpu::Bindings surfaceBindings() const;  // shaders/lib/surface.glsl, geometry included
+    const GpuRayWorld& rayWorld() const { return *rayWorld_; } // shaders/lib/trace.glsl and alpha.glsl
+    gpu::Bindings lightBindings() const;    // shaders/lib/light_access.glsl
+    const gpu::Buffer& indexBuffer() const { return indexBuffer_; }
+
+  private:
+    GpuScene(gpu::Device& device, const glm::dvec3& anchor) : device_(device), anchor_(anchor) {}
+    void uploadGeometry(const Scene& scene);
+    void uploadMaterials(const Scene& scene, const std::vector<std::uint32_t>& placeOfImage);
+    std::optional<Error> uploadTextures(const Scene& scene, std::vector<std::uint32_t>& placeOfImage);
+    std::optional<Error> uploadLights(const Scene& scene, double exposureEv100);
+    void decideFeatures(const Scene& scene);
+
+    gpu::Device& device_;
+    glm::dvec3 anchor_;
+    std::vector<Instance> instances_;
+    std::vector<DrawItem> opaque_, transparent_;
+    RayWorld world_; // large arrays emptied after the upload
+    std::unique_ptr<GpuRayWorld> rayWorld_;
+    gpu::SpecValues features_;
+    std::uint32_t lightCount_ = 0;
+    int derivedRanges_ = 0;
+    std::size_t triangles_ = 0;
+    gpu::Buffer vertexBuffer_, indexBuffer_, uv1Buffer_, instanceBuffer_, materialBuffer_;
+    std::array<gpu::Image, shared::TEXTURE_CLASSES> textures_;
+    gpu::Buffer lightsHot_, lightsCold_;
+    gpu::Image ltcParameters_, ltcScales_;
+};
+
+} // namespace kilolux

@@ -1,0 +1,100 @@
+#include "renderer/pass_statistics.h"
+
+#include "shaders/shared/features.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <fstream>
+#include <sstream>
+#include <time.h>
+#include <unistd.h>
+
+namespace kilolux {
+
+namespace {
+
+struct FeatureText {
+    int id;
+    std::string_view name;
+    std::string_view whyOff;
+};
+
+constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
+    {shared::FEATURE_ALPHA_MASK, "AlphaMask", "no material tests alpha"},
+    {shared::FEATURE_TEXTURES, "Textures", "no material has a texture"},
+    {shared::FEATURE_DIRECTIONAL_LIGHTS, "DirectionalLights", "no such light"},
+    {shared::FEATURE_SPHERE_LIGHTS, "SphereLights", "no such light"},
+    {shared::FEATURE_SPOT_LIGHTS, "SpotLights", "no such light"},
+    {shared::FEATURE_TUBE_LIGHTS, "TubeLights", "no such light"},
+    {shared::FEATURE_RECT_LIGHTS, "RectLights", "no such light"},
+    {shared::FEATURE_DISK_LIGHTS, "DiskLights", "no such light"},
+}};
+
+double percentile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    std::sort(values.begin(), values.end());
+    return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
+}
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+} // namespace
+
+void describeFeatures(const gpu::SpecValues& features, FrameStatistics& statistics) {
+    for (const FeatureText& feature : kFeatures) {
+        const auto found = features.find(std::uint32_t(feature.id));
+        if (found == features.end() || found->second) {
+            statistics.featuresOn.emplace_back(feature.name);
+        } else {
+            statistics.featuresOff.push_back(fmt::format("{}: {}", feature.name, feature.whyOff));
+        }
+    }
+}
+
+void describePasses(const gpu::PassTimes& times, const std::vector<std::string_view>& lighting,
+                    FrameStatistics& statistics) {
+    statistics.frameMs = statistics.directLightingMs = 0.0;
+    for (const gpu::PassTimes::Entry& entry : times.entries()) {
+        // A pass may run several times a frame (pyramid levels): its time is their sum.
+        const std::size_t perFrame = std::max<std::size_t>(1, entry.ms.size() / std::size_t(statistics.frames));
+        std::vector<double> frames;
+        for (std::size_t i = 0; i + perFrame <= entry.ms.size(); i += perFrame) {
+            double sum = 0.0;
+            for (std::size_t j = 0; j < perFrame; ++j) sum += entry.ms[i + j];
+            frames.push_back(sum);
+        }
+        if (frames.empty()) continue;
+        statistics.firstDispatchMs.emplace_back(entry.name, frames.front());
+        if (frames.size() > 1) frames.erase(frames.begin());
+        const double median = percentile(frames, 0.5);
+        statistics.passes.push_back({entry.name, median, percentile(frames, 0.95)});
+        statistics.frameMs += median;
+        if (std::find(lighting.begin(), lighting.end(), entry.name) != lighting.end()) {
+            statistics.directLightingMs += median;
+        }
+    }
+}
+
+void describeMemory(const gpu::MemoryAllocator& memory, FrameStatistics& statistics) {
+    for (const gpu::MemoryCauseBytes& cause : memory.causes()) {
+        statistics.gpuMemory.push_back({cause.cause, double(cause.peak) / kMiB});
+    }
+    statistics.gpuMemoryPeakMiB = double(memory.peakBytes()) / kMiB;
+}
+
+double processAgeMs() {
+    std::ifstream file("/proc/self/stat");
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    const std::size_t name = text.rfind(')');
+    if (name == std::string::npos) return 0.0;
+    std::istringstream fields(text.substr(name + 2));
+    std::string field;
+    for (int i = 3; i <= 22; ++i) fields >> field; // field 22 is the start time in clock ticks since boot
+    timespec now{};
+    clock_gettime(CLOCK_BOOTTIME, &now);
+    const double startMs = std::atof(field.c_str()) * 1e3 / double(sysconf(_SC_CLK_TCK));
+    return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6 - startMs;
+}
+
+} // namespace kilolux

@@ -1,0 +1,61 @@
+// Direct light of all lights, and the picture before transparent surfaces.
+#include "renderer/passes/passes.h"
+
+namespace kilolux {
+
+using gpu::Access;
+
+LightAllPass::LightAllPass(gpu::PassResources& resources, Tracer tracer)
+    : pass_(resources, "light_all",
+            joined({{{"Frame"},
+                     {"gDepth"},
+                     {"gNormals"},
+                     {"gMaterial"},
+                     {"litDiffuseOut", Access::Write},
+                     {"litSpecularOut", Access::Write},
+                     {"lightCountsOut", Access::Write},
+                     {"Counters", Access::ReadWrite}},
+                    lightUses(),
+                    traceUses(tracer)}),
+            {}, tracerDefines(tracer)) {}
+
+void LightAllPass::record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t raysPerLight) {
+    const Targets& targets = frame.targets;
+    pass_.record(frame.commands, frame.features,
+                 joined({{{"Frame", frame.frameBuffer},
+                          {"gDepth", targets.gDepth},
+                          {"gNormals", targets.gNormals},
+                          {"gMaterial", targets.gMaterial},
+                          {"litDiffuseOut", targets.litDiffuse},
+                          {"litSpecularOut", targets.litSpecular},
+                          {"lightCountsOut", targets.lightCounts},
+                          {"Counters", frame.counters}},
+                         frame.scene.lightBindings(),
+                         world}),
+                 raysPerLight, frame.tiles());
+}
+
+CompositePass::CompositePass(gpu::PassResources& resources)
+    : pass_(resources, "composite",
+            {{"Frame"},
+             {"gNormals"},
+             {"gMaterial"},
+             {"gEmissive"},
+             {"litDiffuse"},
+             {"litSpecular"},
+             {"sceneColorOut", Access::Write}}) {}
+
+void CompositePass::record(FrameContext& frame) {
+    const Targets& targets = frame.targets;
+    pass_.record(frame.commands, frame.features,
+                 {{"Frame", frame.frameBuffer},
+                  {"gNormals", targets.gNormals},
+                  {"gMaterial", targets.gMaterial},
+                  {"gEmissive", targets.gEmissive},
+                  {"litDiffuse", targets.litDiffuse},
+                  {"litSpecular", targets.litSpecular},
+                  {"sceneColorOut", targets.sceneColor}},
+                 frame.tiles());
+}
+
+} // namespace kilolux

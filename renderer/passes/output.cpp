@@ -1,0 +1,63 @@
+// Running mean, display transform and debug views.
+#include "renderer/passes/passes.h"
+
+namespace kilolux {
+
+using gpu::Access;
+
+AccumulatePass::AccumulatePass(gpu::PassResources& resources)
+    : pass_(resources, "accumulate", {{"Frame"}, {"sceneColor"}, {"meanColor", Access::ReadWrite}}) {}
+
+void AccumulatePass::record(FrameContext& frame, std::uint32_t framesBefore) {
+    pass_.record(frame.commands, frame.features,
+                 {{"Frame", frame.frameBuffer},
+                  {"sceneColor", frame.targets.sceneColor},
+                  {"meanColor", frame.targets.meanColor}},
+                 framesBefore, frame.tiles());
+}
+
+ToneMapPass::ToneMapPass(gpu::PassResources& resources)
+    : pass_(resources, "tone_map", {{"Frame"}, {"meanColor"}, {"displayOut", Access::Write}}) {}
+
+void ToneMapPass::record(FrameContext& frame) {
+    pass_.record(frame.commands, frame.features,
+                 {{"Frame", frame.frameBuffer},
+                  {"meanColor", frame.targets.meanColor},
+                  {"displayOut", frame.targets.display}},
+                 frame.tiles());
+}
+
+DebugViewPass::DebugViewPass(gpu::PassResources& resources)
+    : pass_(resources, "debug_view",
+            {{"Frame"},
+             {"visibility"},
+             {"gDepth"},
+             {"gNormals"},
+             {"gMaterial"},
+             {"gEmissive"},
+             {"litDiffuse"},
+             {"litSpecular"},
+             {"lightCounts"},
+             {"pyramid"},
+             {"displayOut", Access::Write},
+             {"viewValuesOut", Access::Write}}) {}
+
+void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
+    const Targets& targets = frame.targets;
+    pass_.record(frame.commands, frame.features,
+                 {{"Frame", frame.frameBuffer},
+                  {"visibility", targets.visibility},
+                  {"gDepth", targets.gDepth},
+                  {"gNormals", targets.gNormals},
+                  {"gMaterial", targets.gMaterial},
+                  {"gEmissive", targets.gEmissive},
+                  {"litDiffuse", targets.litDiffuse},
+                  {"litSpecular", targets.litSpecular},
+                  {"lightCounts", targets.lightCounts},
+                  {"pyramid", targets.pyramid},
+                  {"displayOut", targets.display},
+                  {"viewValuesOut", targets.viewValues}},
+                 depthScaleM, frame.tiles());
+}
+
+} // namespace kilolux

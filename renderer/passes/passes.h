@@ -1,0 +1,137 @@
+// Every pass of a frame, in frame order. A pass is a class that makes its pipelines once and a record() call per
+// frame; what it reads and writes is declared beside its shader's name in its own .cpp.
+#pragma once
+
+#include "renderer/gpu/pass.h"
+#include "renderer/gpu_scene.h"
+#include "renderer/targets.h"
+#include "shaders/shared/frame.h"
+
+namespace kilolux {
+
+// What record() calls share.
+struct FrameContext {
+    gpu::Commands& commands;
+    const GpuScene& scene;
+    const Targets& targets;
+    const gpu::Buffer& frameBuffer;          // the uniform block `Frame`
+    const shared::FrameConstants& constants; // what it holds
+    const gpu::Buffer& counters;
+    gpu::SpecValues features;
+
+    // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
+    gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
+};
+
+// Which world tracer a pass is compiled with.
+enum class Tracer { Compute, RayQuery };
+
+class RasterVisibilityPass {
+  public:
+    explicit RasterVisibilityPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::GraphicsPass pass_;
+};
+
+class TraceVisibilityPass {
+  public:
+    TraceVisibilityPass(gpu::PassResources& resources, Tracer tracer);
+    void record(FrameContext& frame, const gpu::Bindings& world);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class ResolveGBufferPass {
+  public:
+    explicit ResolveGBufferPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class DepthPyramidPass {
+  public:
+    explicit DepthPyramidPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class LightAllPass {
+  public:
+    LightAllPass(gpu::PassResources& resources, Tracer tracer);
+    void record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t raysPerLight);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class CompositePass {
+  public:
+    explicit CompositePass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+// BLEND and transmissive surfaces below half opacity, back to front: tint and emission only.
+class TransparentPass {
+  public:
+    explicit TransparentPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    void draw(FrameContext& frame, gpu::GraphicsPass& pass, const std::vector<DrawItem>& items);
+
+    gpu::GraphicsPass tint_;
+    gpu::GraphicsPass emission_;
+};
+
+class AccumulatePass {
+  public:
+    explicit AccumulatePass(gpu::PassResources& resources);
+    void record(FrameContext& frame, std::uint32_t framesBefore);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class ToneMapPass {
+  public:
+    explicit ToneMapPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class DebugViewPass {
+  public:
+    explicit DebugViewPass(gpu::PassResources& resources);
+    void record(FrameContext& frame, float depthScaleM);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+// --- Shared by the passes' files --------------------------------------------------------------------------
+
+// Declarations that match the include files of shaders/lib.
+std::vector<gpu::PassUse> geometryUses();
+std::vector<gpu::PassUse> surfaceUses();
+std::vector<gpu::PassUse> traceUses(Tracer tracer);
+std::vector<gpu::PassUse> lightUses();
+std::vector<gpu::PassUse> joined(std::initializer_list<std::vector<gpu::PassUse>> lists);
+gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists);
+std::vector<std::string> tracerDefines(Tracer tracer);
+
+// Draws the items that the camera may see; sets culling and winding where they change.
+void drawVisible(VkCommandBuffer commands, const FrameContext& frame, const std::vector<DrawItem>& items);
+
+} // namespace kilolux

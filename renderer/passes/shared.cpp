@@ -1,0 +1,95 @@
+// What several passes declare or do alike.
+#include "renderer/passes/passes.h"
+
+namespace kilolux {
+
+using gpu::Access;
+using gpu::PassUse;
+using gpu::Presence;
+
+std::vector<PassUse> geometryUses() { return {{"vertices"}, {"indices"}, {"Instances"}}; }
+
+std::vector<PassUse> surfaceUses() {
+    constexpr Access read = Access::Read;
+    constexpr Presence optional = Presence::Optional; // absent where the scene has no such texture
+    return joined({geometryUses(),
+                   {{"Materials"},
+                    {"uv1s"},
+                    {"textures0", read, optional},
+                    {"textures1", read, optional},
+                    {"textures2", read, optional},
+                    {"textures3", read, optional},
+                    {"texturesSrgb0", read, optional},
+                    {"texturesSrgb1", read, optional},
+                    {"texturesSrgb2", read, optional},
+                    {"texturesSrgb3", read, optional}}});
+}
+
+std::vector<PassUse> traceUses(Tracer tracer) {
+    if (tracer == Tracer::RayQuery) return joined({GpuRayWorld::alphaUses(), {{"traceScene"}}});
+    return GpuRayWorld::traceUses();
+}
+
+std::vector<PassUse> lightUses() {
+    return {{"LightsHot"}, {"lightsHotTexels"}, {"LightsCold"}, {"ltcParameters"}, {"ltcScales"}};
+}
+
+std::vector<PassUse> joined(std::initializer_list<std::vector<PassUse>> lists) {
+    std::vector<PassUse> result;
+    for (const auto& list : lists) result.insert(result.end(), list.begin(), list.end());
+    return result;
+}
+
+gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists) {
+    gpu::Bindings result;
+    for (const auto& list : lists) result.insert(result.end(), list.begin(), list.end());
+    return result;
+}
+
+std::vector<std::string> tracerDefines(Tracer tracer) {
+    if (tracer == Tracer::RayQuery) return {"KX_RAY_QUERY"};
+    return {};
+}
+
+namespace {
+
+// Conservative: false only if all corners of the box lie outside one side of the clip volume.
+bool mayBeSeen(const glm::dmat4& clipFromWorld, const glm::dvec3& lower, const glm::dvec3& upper) {
+    int outside[5] = {0, 0, 0, 0, 0};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 p = clipFromWorld * glm::dvec4(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y,
+                                                        corner & 4 ? upper.z : lower.z, 1.0);
+        outside[0] += p.x < -p.w;
+        outside[1] += p.x > p.w;
+        outside[2] += p.y < -p.w;
+        outside[3] += p.y > p.w;
+        outside[4] += p.z > p.w; // before the near plane
+    }
+    for (const int count : outside) {
+        if (count == 8) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void drawVisible(VkCommandBuffer commands, const FrameContext& frame, const std::vector<DrawItem>& items) {
+    vkCmdBindIndexBuffer(commands, frame.scene.indexBuffer().handle(), 0, VK_INDEX_TYPE_UINT32);
+    const glm::dmat4 clipFromWorld(frame.constants.clipFromWorld);
+    const glm::dvec3 anchor = frame.scene.anchor();
+    int culling = -1, clockwise = -1;
+    for (const DrawItem& item : items) {
+        if (!mayBeSeen(clipFromWorld, item.boundsMin - anchor, item.boundsMax - anchor)) continue;
+        if (culling != int(item.cullBackFaces)) {
+            culling = item.cullBackFaces;
+            vkCmdSetCullMode(commands, culling ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);
+        }
+        if (clockwise != int(item.clockwise)) {
+            clockwise = item.clockwise;
+            vkCmdSetFrontFace(commands, clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+        }
+        vkCmdDrawIndexed(commands, item.indexCount, 1, item.firstIndex, item.vertexOffset, item.instance);
+    }
+}
+
+} // namespace kilolux

@@ -1,0 +1,289 @@
+// Owns device, scene, targets and passes, and runs frames; see renderer.h.
+#include "renderer/renderer.h"
+
+#include "renderer/camera.h"
+#include "renderer/frame.h"
+#include "renderer/gpu_lights.h"
+#include "renderer/lights_cpp/ltc_table.h"
+#include "renderer/nearest_name.h"
+#include "renderer/pass_statistics.h"
+#include "renderer/readback.h"
+#include "shaders/shared/features.h"
+#include "shaders/shared/views.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <thread>
+
+namespace kilolux {
+
+namespace {
+
+double nowMs() {
+    using namespace std::chrono;
+    return duration<double, std::milli>(steady_clock::now().time_since_epoch()).count();
+}
+
+std::filesystem::path contentDirectory() {
+    if (const char* folder = std::getenv("KILOLUX_CONTENT"); folder && *folder) return folder;
+    return KILOLUX_CONTENT_DIR;
+}
+
+bool wantsValidation() {
+    const char* value = std::getenv("KILOLUX_VALIDATION");
+    return value && *value && std::string_view(value) != "0";
+}
+
+gpu::DeviceOptions deviceOptions() {
+    gpu::DeviceOptions options;
+    if (wantsValidation()) options.validation = gpu::Validation::On;
+    if (const char* name = std::getenv("KILOLUX_DEVICE"); name && *name) options.nameContains = name;
+    return options;
+}
+
+// A scene without lights would be black: it gets a sun over the viewer's left shoulder, which is said.
+void addDefaultLight(Scene& scene, const Camera& camera) {
+    LightDef def;
+    def.name = "default light";
+    def.type = LightType::Directional;
+    def.unit = LightUnit::Lux;
+    def.intensity = 1000.0;
+    def.angularDiameterRad = glm::radians(4.0);
+    scene.lightDefs.push_back(def);
+    const glm::dmat3 view(camera.worldFromCamera);
+    const glm::dvec3 toLight = glm::normalize(view * glm::dvec3(-0.6, 0.8, 1.0) + glm::dvec3(0, 0.6, 0));
+    const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(0.3, 1, 0.2), toLight));
+    Node node;
+    node.name = "default light";
+    node.worldFromNode = node.localFromNode =
+        glm::dmat4(glm::dvec4(side, 0), glm::dvec4(glm::cross(toLight, side), 0), glm::dvec4(toLight, 0),
+                   glm::dvec4(0, 0, 0, 1));
+    scene.nodes.push_back(node);
+    LightNode light;
+    light.node = int(scene.nodes.size()) - 1;
+    light.def = int(scene.lightDefs.size()) - 1;
+    scene.lights.push_back(light);
+}
+
+Result<Camera> chooseCamera(const Scene& scene, const std::string& name) {
+    if (name.empty()) return scene.cameras.empty() ? derivedCamera(scene) : scene.cameras.front();
+    std::string known;
+    for (const Camera& camera : scene.cameras) {
+        if (camera.name == name) return camera;
+        known += fmt::format("{}'{}'", known.empty() ? "" : ", ", camera.name);
+    }
+    return Error{fmt::format("{}: no camera '{}'; it has {}", scene.sourcePath.string(), name,
+                             known.empty() ? "none" : known)};
+}
+
+// Measured on lavapipe, two cores: raster costs by triangles, primary rays by pixels (README, "Measured").
+GBufferProducer chooseProducer(const Settings& settings, const gpu::Device& device, std::size_t triangles,
+                               std::size_t pixels) {
+    if (settings.gbuffer == GBufferChoice::Raster) return GBufferProducer::Raster;
+    if (settings.gbuffer == GBufferChoice::Compute) return GBufferProducer::Compute;
+    if (!device.hasGeometryShader()) return GBufferProducer::Compute; // fragments would not know their triangle
+    return device.isCpu() && pixels < triangles ? GBufferProducer::Compute : GBufferProducer::Raster;
+}
+
+} // namespace
+
+struct Renderer::Impl {
+    Impl(const Scene& source, const RenderOptions& renderOptions)
+        : startMs(nowMs()), scene(source), options(renderOptions), device(deviceOptions()), resources(device) {}
+
+    std::optional<Error> prepare();
+    Result<Picture> render(const RenderProgress& progress);
+    void runFrame(std::uint32_t index);
+    Picture readPicture() const;
+
+    double startMs;
+    Scene scene; // a copy: meshes and images are shared
+    RenderOptions options;
+    gpu::Device device;
+    gpu::PassResources resources;
+    Camera camera;
+    FramePlan plan;
+    double exposureEv100 = 0.0;
+    std::unique_ptr<GpuScene> gpuScene;
+    std::unique_ptr<Targets> targets;
+    std::unique_ptr<FramePasses> passes;
+    gpu::Buffer frameBuffer, counterBuffer;
+    shared::FrameConstants constants{};
+    gpu::SpecValues features;
+    gpu::Bindings world;
+    gpu::PassTimes times;
+    FrameStatistics statistics;
+    std::uint64_t lightsInRange = 0, surfacePixels = 0;
+};
+
+std::optional<Error> Renderer::Impl::prepare() {
+    const std::optional<int> view = indexOfChoice(viewChoices(), options.view);
+    const std::optional<int> method = indexOfChoice(methodChoices(), options.method);
+    if (!view) return Error{fmt::format("no view '{}'", options.view)};
+    if (!method) return Error{fmt::format("no method '{}'", options.method)};
+    Result<Camera> chosen = chooseCamera(scene, options.camera);
+    if (!chosen) return Error{chosen.error()};
+    camera = chosen.value();
+    if (scene.lights.empty()) {
+        addDefaultLight(scene, camera);
+        statistics.notes.push_back("the scene has no lights; a default directional light of 1000 lux stands in");
+    }
+    Result<LtcTable> table = loadLtcTable(contentDirectory() / "ltc_ggx.bin");
+    if (!table) return Error{table.error()};
+    useLtcTable(std::move(table.value()));
+
+    const bool metered = options.settings.exposureEv100.automatic && !scene.hasExposure;
+    exposureEv100 = metered ? deriveExposureEv100(scene)
+                            : options.settings.exposureEv100.valueOr(scene.exposureEv100);
+    Result<std::unique_ptr<GpuScene>> uploaded =
+        GpuScene::create(device, scene, anchorFor(camera), exposureEv100);
+    if (!uploaded) return Error{uploaded.error()};
+    gpuScene = std::move(uploaded.value());
+    if (gpuScene->derivedRanges() > 0) {
+        statistics.notes.push_back(fmt::format(
+            "{} of {} lights have no range and got a derived one: less than 1/1000 of middle grey is lost per light",
+            gpuScene->derivedRanges(), gpuScene->lightCount()));
+    }
+
+    plan.producer = chooseProducer(options.settings, device, gpuScene->triangles(),
+                                   std::size_t(options.width) * std::size_t(options.height));
+    if (options.settings.tracer == TracerChoice::RayQuery && !device.hasRayQuery()) {
+        return Error{fmt::format("device '{}' has no ray query; use tracer=compute", device.name())};
+    }
+    const bool rayQuery = options.settings.tracer == TracerChoice::RayQuery ||
+                          (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
+    plan.tracer = rayQuery ? Tracer::RayQuery : Tracer::Compute;
+    plan.method = Method(*method);
+    plan.view = *view;
+    plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
+    plan.transparent = !gpuScene->transparentDraws().empty();
+
+    features = gpuScene->features();
+    features[shared::CHOICE_ESTIMATOR] =
+        plan.method == Method::ReferenceTrue ? shared::ESTIMATOR_TRUE : shared::ESTIMATOR_SPLIT;
+    features[shared::CHOICE_TONE_MAP] =
+        options.settings.toneMap == ToneMap::None ? shared::TONE_MAP_NONE : shared::TONE_MAP_NEUTRAL;
+    features[shared::CHOICE_VIEW] = std::uint32_t(plan.view);
+
+    targets = std::make_unique<Targets>(device, std::uint32_t(options.width), std::uint32_t(options.height),
+                                        plan.producer == GBufferProducer::Raster);
+    passes = std::make_unique<FramePasses>(resources, plan);
+    frameBuffer = gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                       gpu::MemoryUse::HostWrite, "other"});
+    counterBuffer = gpu::Buffer(device, {"counters", shared::COUNTER_COUNT * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                         gpu::MemoryUse::HostReadback, "other"});
+    world = gpuScene->rayWorld().traceBindings();
+    return std::nullopt;
+}
+
+void Renderer::Impl::runFrame(std::uint32_t index) {
+    const glm::dvec2 jitter = options.settings.jitter
+                                  ? filterOffset(options.settings.pixelFilter, index, options.seed)
+                                  : glm::dvec2(0.0);
+    setCamera(constants, camera, gpuScene->anchor(), options.width, options.height, jitter);
+    constants.tileChunks = device.isCpu() ? std::max(1u, std::thread::hardware_concurrency()) : 1u;
+    constants.frame = index;
+    constants.seed = options.seed;
+    constants.lightCount = gpuScene->lightCount();
+    constants.exposure = float(exposureFromEv100(exposureEv100));
+    constants.rasterized = plan.producer == GBufferProducer::Raster;
+    frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
+
+    const Bounds bounds = worldBounds(scene);
+    gpu::Commands commands(device, &times);
+    commands.fillBuffer(counterBuffer, 0);
+    FrameContext context{commands, *gpuScene, *targets, frameBuffer, constants, counterBuffer, features};
+    recordFrame(context, *passes, plan, world, index, float(0.25 * glm::length(bounds.max - bounds.min)));
+    commands.submitAndWait();
+    const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
+    statistics.rays += counts[shared::COUNTER_RAYS];
+    lightsInRange += counts[shared::COUNTER_LIGHTS_IN_RANGE];
+    surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
+}
+
+Picture Renderer::Impl::readPicture() const {
+    Picture picture{options.width, options.height, {}, {}};
+    const FloatImage values =
+        toFloatImage(plan.view == shared::VIEW_FINAL ? targets->meanColor : targets->viewValues);
+    const float scale = plan.view == shared::VIEW_FINAL ? 1.0f / constants.exposure : 1.0f;
+    const std::vector<std::byte> display = targets->display.download();
+    const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);
+    picture.rgb.resize(pixels * 3);
+    picture.srgb8.resize(pixels * 3);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            picture.rgb[i * 3 + c] = values.pixels[i * 4 + c] * scale;
+            picture.srgb8[i * 3 + c] = std::uint8_t(display[i * 4 + c]);
+        }
+    }
+    return picture;
+}
+
+Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
+    const double beginMs = nowMs();
+    for (int i = 0; i < options.frames; ++i) {
+        runFrame(std::uint32_t(i));
+        if (i == 0) statistics.startupMs = processAgeMs();
+        if (progress && !progress(i + 1, options.frames)) return Error{"cancelled"};
+    }
+    Picture picture = readPicture();
+    statistics.wallMs = nowMs() - beginMs;
+    const std::vector<std::string> messages = device.takeValidationMessages();
+    if (!messages.empty()) return Error{fmt::format("Vulkan validation: {}", messages.front())};
+
+    statistics.device = device.name();
+    statistics.driver = device.driver();
+    statistics.timing = device.hasReliableTimestamps() ? "timestamps" : "wall";
+    statistics.width = options.width;
+    statistics.height = options.height;
+    statistics.frames = options.frames;
+    statistics.seed = options.seed;
+    statistics.lights = gpuScene->lightCount();
+    statistics.lightsInRangeMean = surfacePixels ? double(lightsInRange) / double(surfacePixels) : 0.0;
+    statistics.triangles = gpuScene->triangles();
+    statistics.exposureEv100 = exposureEv100;
+    describeFeatures(features, statistics);
+    describePasses(times, {"light_all"}, statistics);
+    describeMemory(device.memory(), statistics);
+    return picture;
+}
+
+// --- Renderer --------------------------------------------------------------------------------------------
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Renderer::~Renderer() = default;
+
+std::span<const NamedChoice> Renderer::views() { return viewChoices(); }
+std::span<const NamedChoice> Renderer::methods() { return methodChoices(); }
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const Scene& scene, const RenderOptions& options) {
+    try {
+        auto impl = std::make_unique<Impl>(scene, options);
+        if (auto error = impl->prepare()) return *error;
+        return std::unique_ptr<Renderer>(new Renderer(std::move(impl)));
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+Result<Picture> Renderer::render(const RenderProgress& progress) {
+    try {
+        return impl_->render(progress);
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+FrameStatistics Renderer::statistics() const { return impl_->statistics; }
+
+Result<std::vector<NamedImage>> Renderer::targets() {
+    std::vector<NamedImage> result;
+    if (!impl_->options.keepTargets) return result;
+    for (const gpu::Image* image : impl_->targets->all()) {
+        result.push_back({image->desc().name, toFloatImage(*image)});
+    }
+    return result;
+}
+
+} // namespace kilolux

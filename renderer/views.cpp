@@ -1,0 +1,50 @@
+#include "renderer/views.h"
+
+#include "shaders/shared/views.h"
+
+#include <array>
+
+namespace kilolux {
+
+namespace {
+
+constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
+    {"final", "the picture"},
+    {"diffuse", "diffuse light without the material's albedo, nit / pi"},
+    {"specular", "specular light, nit"},
+    {"normal", "shading normal, world space"},
+    {"geometric-normal", "geometric normal, world space, on the viewer's side"},
+    {"base-color", "base colour"},
+    {"roughness", "roughness, 0 to 1"},
+    {"metallic", "metallic, 0 to 1"},
+    {"emissive", "emitted light, nit"},
+    {"depth", "linear depth, metres; bright is near"},
+    {"depth-range", "depth pyramid: farthest minus nearest in 8 x 8 pixels"},
+    {"instance", "a colour per instance"},
+    {"primitive", "a colour per triangle"},
+    {"lights-in-range", "lights in range of each pixel, 0 to 64"},
+    {"lights-seen", "lights of which a ray was not blocked, 0 to 64"},
+    {"seen-share", "share of the lights in range that is seen, 0 to 1"},
+}};
+
+constexpr std::array<NamedChoice, 3> kMethods{{
+    {"all-lights", "every light in range of each pixel with one ray each"},
+    {"split", "reference: analytic irradiance times mean visibility; converges over --frames"},
+    {"true", "reference: the BRDF at sampled points of every light; converges over --frames"},
+}};
+
+} // namespace
+
+std::span<const NamedChoice> viewChoices() { return kViews; }
+
+std::span<const NamedChoice> methodChoices() { return kMethods; }
+
+std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::string_view name) {
+    if (name.empty()) return 0;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+        if (choices[i].name == name) return int(i);
+    }
+    return std::nullopt;
+}
+
+} // namespace kilolux

@@ -1,0 +1,18 @@
+// Names of the views and methods, in the order of shaders/shared/views.h.
+#pragma once
+
+#include "renderer/renderer.h"
+
+#include <optional>
+
+namespace kilolux {
+
+std::span<const NamedChoice> viewChoices();   // index = VIEW_*
+std::span<const NamedChoice> methodChoices(); // index = Method
+
+enum class Method { AllLights, ReferenceSplit, ReferenceTrue };
+
+// Index of a name; empty text gives 0.
+std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::string_view name);
+
+} // namespace kilolux

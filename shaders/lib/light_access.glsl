@@ -1,0 +1,61 @@
+// The lights with their bindings: loadLightHot(slot), loadLightCold(slot), the LTC table, features by type. Hot
+// records come from a uniform block up to 1,024 slots (fastest on CPU drivers), from a texel buffer above.
+#ifndef KILOLUX_LIB_LIGHT_ACCESS_GLSL
+#define KILOLUX_LIB_LIGHT_ACCESS_GLSL
+#include "../math/prelude.glsl"
+#include "../shared/features.h"
+#include "../shared/gpu_light.h"
+
+layout(constant_id = FEATURE_DIRECTIONAL_LIGHTS) const bool kDirectionalLights = true;
+layout(constant_id = FEATURE_SPHERE_LIGHTS) const bool kSphereLights = true;
+layout(constant_id = FEATURE_SPOT_LIGHTS) const bool kSpotLights = true;
+layout(constant_id = FEATURE_TUBE_LIGHTS) const bool kTubeLights = true;
+layout(constant_id = FEATURE_RECT_LIGHTS) const bool kRectLights = true;
+layout(constant_id = FEATURE_DISK_LIGHTS) const bool kDiskLights = true;
+layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = false;
+#define KX_HAS_DIRECTIONAL kDirectionalLights
+#define KX_HAS_SPHERE kSphereLights
+#define KX_HAS_SPOT kSpotLights
+#define KX_HAS_TUBE kTubeLights
+#define KX_HAS_RECT kRectLights
+#define KX_HAS_DISK kDiskLights
+
+uniform sampler2D ltcParameters;
+uniform sampler2D ltcScales;
+vec4 ltcLookup0(vec2 uv) {
+    return textureLod(ltcParameters, uv, 0.0);
+}
+vec4 ltcLookup1(vec2 uv) {
+    return textureLod(ltcScales, uv, 0.0);
+}
+#include "../lights/light.glsl"
+
+layout(scalar) uniform LightsHot {
+    LightHot lightsHot[LIGHT_UNIFORM_SLOTS];
+};
+uniform usamplerBuffer lightsHotTexels; // RGBA32_UINT, 4 a record
+layout(scalar) readonly buffer LightsCold {
+    LightCold lightsCold[];
+};
+
+LightHot loadLightHot(uint slot) {
+    if (kLightsInUniform) return lightsHot[slot];
+    int texel = int(slot * 4u);
+    uvec4 a = texelFetch(lightsHotTexels, texel), b = texelFetch(lightsHotTexels, texel + 1),
+          c = texelFetch(lightsHotTexels, texel + 2), d = texelFetch(lightsHotTexels, texel + 3);
+    return LightHot(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w,
+                    uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xy), uintBitsToFloat(d.zw));
+}
+
+LightCold loadLightCold(uint slot) {
+    return lightsCold[slot];
+}
+
+// Whether the light is on and the point within its range.
+bool lightReaches(LightHot light, vec3 positionWs) {
+    vec3 to = positionWs - light.positionWs;
+    bool within = dot(to, to) * light.invRange * light.invRange < 1.0;
+    return lightIsOn(light) && (within || lightType(light) == LIGHT_DIRECTIONAL);
+}
+
+#endif

@@ -1,0 +1,125 @@
+#version 460
+// Every light in range of each pixel with rays of its own: the method 'all-lights' and both references. Split:
+// analytic irradiance times the visibility of uniformly chosen points of the light (Heitz, Hill and McGuire,
+// "Combining Analytic Direct Illumination and Stochastic Shadows", 2018). True: the BRDF at the chosen points.
+// Terms that are zero cost no ray. Output is exposed; diffuse light is demodulated by the diffuse albedo.
+#include "shared/features.h"
+#include "lib/dispatch.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/light_access.glsl"
+#ifdef KX_RAY_QUERY
+#include "lib/trace_ray_query.glsl"
+#else
+#include "lib/trace.glsl"
+#endif
+#include "math/color.glsl"
+#include "math/hash.glsl"
+
+layout(constant_id = CHOICE_ESTIMATOR) const int kEstimator = ESTIMATOR_SPLIT;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant) uniform Push {
+    uint raysPerLight;
+};
+uniform sampler2D gDepth;
+uniform usampler2D gNormals;
+uniform usampler2D gMaterial;
+layout(rgba32f) writeonly uniform image2D litDiffuseOut;
+layout(rgba32f) writeonly uniform image2D litSpecularOut;
+layout(r32ui) writeonly uniform uimage2D lightCountsOut;
+layout(scalar) buffer Counters {
+    uint counters[];
+};
+
+// Tries to find a point above the receiver's horizon; at most 2^-8 of a light whose visible half is below it
+// are given up.
+const int kMaxDraws = 8;
+
+struct Receiver {
+    ShadingPoint point;
+    vec3 geoNormalWs;
+    float errorM;
+};
+
+// 1 where nothing is between the receiver and the sampled point.
+float visibility(Receiver receiver, LightSample s, float rayEndBiasM, inout uint rays) {
+    if (dot(receiver.geoNormalWs, s.dirWs) <= 0.0) return 0.0;
+    vec3 origin = offsetRayOrigin(receiver.point.positionWs, receiver.geoNormalWs, s.dirWs, receiver.errorM);
+    // The light's own point must not be met either: end short by the rounding of the distance.
+    float endM = s.distanceM >= KX_INFINITY ? KX_INFINITY
+                                            : s.distanceM * (1.0 - 4.0e-7) - rayEndBiasM - receiver.errorM;
+    if (endM <= 0.0) return 1.0;
+    ++rays;
+    return occluded(makeRay(origin, s.dirWs, endM)) ? 0.0 : 1.0;
+}
+
+void main() {
+    uvec2 pixel = dispatchedPixel();
+    if (!isInPicture(pixel)) return;
+    ivec2 at = ivec2(pixel);
+    float depthM = texelFetch(gDepth, at, 0).x;
+    vec3 diffuse = vec3(0.0), specular = vec3(0.0);
+    uint inRange = 0u, shining = 0u, rays = 0u;
+    if (depthM < DEPTH_SKY) {
+        Surface surface = unpackSurface(texelFetch(gNormals, at, 0).xy, texelFetch(gMaterial, at, 0).xy);
+        CameraRay camera = cameraRay(pixel);
+        vec3 viewDirWs = -normalize(camera.dir);
+        vec3 positionWs = camera.originWs + camera.dir * depthM;
+        float distanceM = depthM * length(camera.dir);
+        float errorM = frame.rasterized != 0u ? rasterPositionErrorM(positionWs, distanceM, frame.pixelAngleRad)
+                                              : positionErrorM(positionWs) + 7.5e-7 * distanceM;
+        Receiver receiver = Receiver(makeShadingPoint(positionWs, surface.normalWs, viewDirWs, surface.roughness),
+                                     surface.geoNormalWs, errorM);
+        LtcLobe lobe = makeLtcLobe(receiver.point);
+        vec3 f0 = specularF0(surface);
+        uint seed = pixelSeed(pixel, frame.frame, frame.seed);
+        for (uint slot = 0u; slot < frame.lightCount; ++slot) {
+            LightHot light = loadLightHot(slot);
+            if (!lightReaches(light, positionWs)) continue;
+            ++inRange;
+            LightIrradiance unshadowed;
+            if (kEstimator == ESTIMATOR_SPLIT) {
+                unshadowed = lightIrradiance(light, receiver.point, lobe);
+                if (unshadowed.diffuse <= 0.0 && unshadowed.specular.x + unshadowed.specular.y <= 0.0) continue;
+            } else {
+                unshadowed.emission = lightEvaluate(light, positionWs);
+                if (luminance(unshadowed.emission) <= 0.0) continue;
+            }
+            float rayEndBiasM = loadLightCold(slot).rayEndBiasM;
+            float sumVisible = 0.0;
+            vec3 sumDiffuseSpecular = vec3(0.0); // true: diffuse, specular for F0, for F90
+            for (uint ray = 0u; ray < raysPerLight; ++ray) {
+                uint sampleSeed = hashCombine(seed, slot * 16u + ray);
+                LightSample s;
+                bool usable = false;
+                // Split wants points above the horizon only; true draws once, a zero is part of its mean.
+                int draws = kEstimator == ESTIMATOR_SPLIT ? kMaxDraws : 1;
+                for (int draw = 0; draw < draws && !usable; ++draw) {
+                    s = lightSample(light, positionWs, whiteNoise2(sampleSeed, uint(draw)));
+                    usable = s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0;
+                }
+                if (!usable) continue;
+                float visible = visibility(receiver, s, rayEndBiasM, rays);
+                sumVisible += visible;
+                if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) {
+                    BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, viewDirWs, receiver.point.noV,
+                                                           s.dirWs, receiver.point.alpha);
+                    sumDiffuseSpecular += visible * s.geometry * vec3(brdf.diffuse, brdf.specular);
+                }
+            }
+            vec3 terms = kEstimator == ESTIMATOR_SPLIT
+                             ? sumVisible * vec3(unshadowed.diffuse * KX_INV_PI, unshadowed.specular)
+                             : sumDiffuseSpecular;
+            vec3 emission = unshadowed.emission * (frame.exposure / float(raysPerLight));
+            diffuse += emission * terms.x;
+            specular += emission * (f0 * terms.y + vec3(terms.z));
+            shining += sumVisible > 0.0 ? 1u : 0u;
+        }
+        atomicAdd(counters[COUNTER_RAYS], rays);
+        atomicAdd(counters[COUNTER_LIGHTS_IN_RANGE], inRange);
+        atomicAdd(counters[COUNTER_SURFACE_PIXELS], 1u);
+    }
+    imageStore(litDiffuseOut, at, vec4(diffuse, 1.0));
+    imageStore(litSpecularOut, at, vec4(specular, 1.0));
+    imageStore(lightCountsOut, at, uvec4(min(inRange, 0xffffu) | min(shining, 0xffffu) << 16u));
+}

@@ -1,0 +1,41 @@
+// What every pass of a frame knows: camera, size, noise. One uniform block, `Frame`.
+#ifndef KILOLUX_SHARED_FRAME_H
+#define KILOLUX_SHARED_FRAME_H
+#include "base.h"
+
+KX_SHARED_BEGIN
+
+struct FrameConstants {
+    mat4 clipFromWorld;  // of anchor-relative positions, jitter contained; reversed depth, infinite far plane
+    // The camera ray of pixel coordinates (px, py), pixel centres at halves, jitter contained:
+    //   origin = originBase + px * originStepX + py * originStepY
+    //   direction = dirBase + px * dirStepX + py * dirStepY, with 1 along the camera's axis: so that
+    //   position = origin + direction * linear depth
+    vec3 originBase; // metres, anchor-relative
+    vec3 originStepX;
+    vec3 originStepY;
+    vec3 dirBase;
+    vec3 dirStepX;
+    vec3 dirStepY;
+    uvec2 size;           // pixels of the sub-rectangle that this frame renders
+    uvec2 tiles;          // of 8 x 8 pixels that cover it
+    uint tileChunks;      // runs of workgroups that the device executes side by side (lib/tile_order.glsl)
+    uint frame;           // since the start, for noise
+    uint seed;
+    uint lightCount;      // slots
+    float exposure;       // display value = exposure * luminance [nit]
+    float pixelAngleRad;  // 2 tan(fovY / 2) / height; orthographic: 0
+    float zNearM;
+    uint rasterized;      // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
+};
+
+KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface
+
+// What a frame counted; one buffer of integers, zeroed before the frame.
+KX_CONST uint COUNTER_RAYS = 0u;
+KX_CONST uint COUNTER_LIGHTS_IN_RANGE = 1u;
+KX_CONST uint COUNTER_SURFACE_PIXELS = 2u;
+KX_CONST uint COUNTER_COUNT = 4u;
+
+KX_SHARED_END
+#endif

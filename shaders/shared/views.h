@@ -1,0 +1,27 @@
+// The debug views; renderer/views.cpp gives each its name and help.
+#ifndef KILOLUX_SHARED_VIEWS_H
+#define KILOLUX_SHARED_VIEWS_H
+#include "base.h"
+
+KX_SHARED_BEGIN
+
+const int VIEW_FINAL = 0;
+const int VIEW_DIFFUSE = 1;
+const int VIEW_SPECULAR = 2;
+const int VIEW_NORMAL = 3;
+const int VIEW_GEOMETRIC_NORMAL = 4;
+const int VIEW_BASE_COLOR = 5;
+const int VIEW_ROUGHNESS = 6;
+const int VIEW_METALLIC = 7;
+const int VIEW_EMISSIVE = 8;
+const int VIEW_DEPTH = 9;
+const int VIEW_DEPTH_RANGE = 10;
+const int VIEW_INSTANCE = 11;
+const int VIEW_PRIMITIVE = 12;
+const int VIEW_LIGHTS_IN_RANGE = 13;
+const int VIEW_LIGHTS_SEEN = 14;
+const int VIEW_SEEN_SHARE = 15;
+const int VIEW_COUNT = 16;
+
+KX_SHARED_END
+#endif
