@@ -12,7 +12,7 @@ from kit.shapes import bar, sweep
 from kit.transform import apply, look_at, rotate_x, rotate_y, translate
 
 from . import fixtures as F
-from . import goods, stalls, street
+from . import goods, props, stalls, street
 from . import materials as M
 
 LIGHT_COUNT = 941
@@ -20,14 +20,14 @@ ASPECT = 16 / 9
 WIDE_EYE, WIDE_TARGET, WIDE_YFOV = (-1.0, 3.35, 8.6), (0.7, 1.6, -12.0), math.radians(42)
 LEFT, RIGHT = math.pi / 2, -math.pi / 2  # turn of a stall that stands on that side of its lane
 PITCH_M = 3.25
-FAR_Z = -15.0  # beyond it, models with less detail
+FAR_Z = -13.0  # beyond it, models with less detail
 # Blue of the sky after sunset, soft: as wide as a third of the sky.
-SKY = Light("sky", "directional", 3.6, "lux", color=(0.22, 0.42, 1.0), angular_diameter_rad=0.7)
+SKY = Light("sky", "directional", 12.0, "lux", color=(0.22, 0.42, 1.0), angular_diameter_rad=0.7)
 
 
 class Market:
     def __init__(self):
-        self.scene = Scene("night market", 3.3)
+        self.scene = Scene("night market", 3.8)
         self.view = np.linalg.inv(look_at(WIDE_EYE, WIDE_TARGET))
         self.signs = F.Signs()
         self.models = {}
@@ -126,8 +126,8 @@ class Market:
         for x in (-1.32, 1.32):
             if r.random() < 0.8:
                 model, light = self.lantern_kind(int(r.integers(0, 3)), near)
-                drop = r.uniform(0.30, 0.40)
-                self.lamp("lantern", node, translate(x, stalls.FRONT_Y - drop, stalls.AWNING_Z - 0.03), model, light)
+                self.scene.node("bracket", node, translate(x, 0, 0), self.shared("bracket", stalls.bracket))
+                self.lamp("lantern", node, translate(x, stalls.BRACKET_Y - 0.37 - r.uniform(0, 0.05), stalls.BRACKET_Z), model, light)
         index = int(r.integers(0, 10))
         if r.random() < 0.5:
             x = float(r.choice((-1.62, 1.62)))
@@ -221,6 +221,25 @@ class Market:
             self.lamp("door lamp", node, at, self.shared("door", lambda: F.panel_lamp(F.PANEL, 0.05)), F.PANEL, F.down())
             self.sign(node, translate(-width / 2 + 1.2, 5.0, 0.5) @ rotate_y(math.pi / 2), int(r.integers(0, 10)), True)
 
+    def corners(self):
+        """Tables under parasols and a handcart in the gaps that the stalls leave near the camera."""
+        group = self.scene.node("corners")
+        lamp = self.shared("parasol lamp", lambda: F.bulb("parasol bulb", F.BULB, 0.3))
+        kinds = (("orange", "lime", "apple"), ("peach", "lemon", "aubergine"))
+        for k, (x, z, turn) in enumerate(((-7.3, -3.0, 0.5), (6.9, -2.2, -0.6), (8.2, -5.6, -0.2), (-9.4, -6.4, 0.2))):
+            node = self.scene.node(f"parasol {k + 1}", group, translate(x, 0, z) @ rotate_y(turn), self.shared(
+                ("parasol", k), lambda: props.parasol(M.AWNINGS[(2 * k + 1) % 6])))
+            table = self.shared(("table", k % 2), lambda: props.table(f"table {k % 2}", kinds[k % 2], 40 + k))
+            self.scene.node("table", node, translate(0, 0, 0.75), table)
+            for dx in (-0.45, 0.45):
+                self.lamp("parasol bulb", node, translate(dx, props.PARASOL_LAMP_Y, 0.35), lamp, F.BULB)
+        self.scene.node("handcart", group, translate(-5.75, 0, 0.15) @ rotate_y(1.0), props.handcart())
+        shrub = self.shared("shrub", props.potted_shrub)
+        for x, z in ((-5.15, -0.35), (5.1, 0.9), (5.45, 0.55), (-1.55, -45.3), (2.9, -45.3), (-2.9, -45.3)):
+            self.scene.node("shrub", group, translate(x, 0, z) @ rotate_y(x * 3 + z), shrub)
+        house = self.scene.node("tea house", group, translate(0, 0, -46.6), street.tea_house(F.TEA_HOUSE))
+        self.lamp("tea house light", house, translate(0, 0.35 + 1.1, 0.02) @ rotate_y(math.pi), None, F.TEA_HOUSE)
+
     def fill(self):
         """String bulbs along awning edges until the market has its count of lights."""
         bulb = self.shared("fairy", lambda: F.bulb("string bulb", F.FAIRY, 0.0, (7, 4)))
@@ -234,7 +253,7 @@ class Market:
             self.scene.node("wire", node, model=wire)
             for k in range(6):
                 if self.lit < LIGHT_COUNT:
-                    self.lamp("string bulb", node, translate((k - 2.5) * 0.5, 2.25 + 0.012 * abs(k - 2.5), 1.57), bulb, F.FAIRY)
+                    self.lamp("string bulb", node, translate((k - 2.5) * 0.44, 2.25 + 0.012 * abs(k - 2.5), 1.57), bulb, F.FAIRY)
 
 
 def build():
@@ -248,7 +267,7 @@ def build():
     market.rows()
     market.gates()
     market.strings()
-    print("before fill", market.lit)
+    market.corners()
     market.fill()
     if market.lit != LIGHT_COUNT:
         raise SystemExit(f"night_market has {market.lit} area lights in view, not {LIGHT_COUNT}")

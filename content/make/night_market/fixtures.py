@@ -13,8 +13,8 @@ from kit.transform import rotate_x, rotate_y, rotate_z, translate
 from . import materials as M
 
 DEG = math.pi / 180
-SIGN_NIT = 42.0
-RANGE = 1.36  # scale of all ranges: sets how many lights reach a point
+SIGN_NIT = 50.0
+RANGE = 1.2  # scale of all ranges: sets how many lights reach a point
 
 
 def _range(metres):
@@ -26,17 +26,19 @@ def lantern_light(name, color, lumen, radius, reach):
 
 
 # Paper tints the lamp inside; lumens are what would leave white paper.
-RED = lantern_light("red lantern", (1.0, 0.22, 0.06), 80.0, 0.24, 5.2)
-WARM = lantern_light("warm lantern", (1.0, 0.52, 0.20), 62.0, 0.20, 5.2)
-AMBER = lantern_light("amber lantern", (1.0, 0.38, 0.09), 60.0, 0.15, 4.8)
-BULB = Light("bulb", "sphere", 450.0, "lumen", temperature_k=2700.0, range_m=_range(4.6), radius_m=0.04,
+RED = lantern_light("red lantern", (1.0, 0.17, 0.04), 62.0, 0.24, 5.2)
+WARM = lantern_light("warm lantern", (1.0, 0.50, 0.18), 50.0, 0.20, 5.2)
+AMBER = lantern_light("amber lantern", (1.0, 0.36, 0.08), 45.0, 0.15, 4.8)
+BULB = Light("bulb", "sphere", 600.0, "lumen", temperature_k=2700.0, range_m=_range(4.6), radius_m=0.04,
              ray_end_bias_m=0.025)
-FAIRY = Light("string bulb", "sphere", 75.0, "lumen", temperature_k=2500.0, range_m=_range(4.4), radius_m=0.028,
+FAIRY = Light("string bulb", "sphere", 115.0, "lumen", temperature_k=2500.0, range_m=_range(4.4), radius_m=0.028,
               ray_end_bias_m=0.02)
-SHADE = Light("shaded lamp", "spot", 600.0, "lumen", temperature_k=3000.0, range_m=_range(4.8), radius_m=0.04,
+SHADE = Light("shaded lamp", "spot", 800.0, "lumen", temperature_k=3000.0, range_m=_range(4.8), radius_m=0.04,
               inner_rad=30 * DEG, outer_rad=58 * DEG, ray_end_bias_m=0.03)
-PANEL = Light("panel lamp", "disk", 300.0, "lumen", temperature_k=4000.0, range_m=_range(4.6), width_m=0.3,
+PANEL = Light("panel lamp", "disk", 420.0, "lumen", temperature_k=4000.0, range_m=_range(4.6), width_m=0.3,
               ray_end_bias_m=0.02)
+TEA_HOUSE = Light("tea house", "rect", 26.0, "nit", color=(1.0, 0.62, 0.27), range_m=_range(9.0), width_m=4.4,
+                  height_m=2.2, ray_end_bias_m=0.2)
 NEON_COLORS = {"pink": (1.0, 0.07, 0.30), "cyan": (0.06, 0.72, 1.0), "gold": (1.0, 0.48, 0.05)}
 
 
@@ -89,8 +91,8 @@ def bulb(name, light, cord, detail=(10, 6)):
 def shaded_lamp(light, cord):
     """Enamel shade over a bulb; looks down (-Y in this model, the light's node turns by itself)."""
     model = Model("shaded lamp")
-    model.add(M.ENAMEL, lathe([(0.17, -0.03), (0.165, -0.02), (0.06, 0.07), (0.04, 0.12), (0, 0.125)], 20, 40))
-    model.add(glow("shaded bulb", light), sphere(light.radius_m * 0.98, 12, 7))
+    model.add(M.ENAMEL, lathe([(0.17, -0.03), (0.165, -0.02), (0.06, 0.07), (0.04, 0.12)], 16, 60))
+    model.add(glow("shaded bulb", light), sphere(light.radius_m * 0.98, 8, 5))
     model.add(M.CABLE, rod((0, 0.12, 0), (0, cord, 0), 0.005, 5))
     return model
 
@@ -143,6 +145,7 @@ class Signs:
         if key not in self.made:
             picture = M.sign_picture(word, ground, ink, rim, vertical)
             h, w = picture.shape[:2]
+            picture = M.resized(picture, 64 if vertical else 256, 128)
             width, height = (0.46, 0.46 * h / w) if vertical else (0.52 * w / h, 0.52)
             mean = picture.mean(axis=(0, 1))
             color = tuple(float(round(c, 4)) for c in mean / mean.max())

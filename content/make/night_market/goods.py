@@ -79,11 +79,12 @@ JAR = [(0, 0), (0.052, 0), (0.058, 0.01), (0.058, 0.12), (0.048, 0.14), (0.048, 
 def bottles(name, seed, detail):
     """Rows of bottles and jars on the counter and on two shelves behind."""
     model, r = Model(name), rng(seed)
-    segments = (5, 7, 14)[detail]
+    segments = (5, 6, 14)[detail]
     shapes = [lathe(p, segments, 30) for p in (BOTTLE, FLASK, JAR)]
     labels = [lathe([(q + 0.0008, lo), (q + 0.0008, hi)], segments) for q, lo, hi in ((0.038, 0.05, 0.12), (0.05, 0.03, 0.075),
                                                                                    (0.058, 0.03, 0.10))]
-    for y, z, count in ((TOP_Y + 0.03, 0.33, 11), (TOP_Y + 0.0, 0.55, 9), (1.32, -0.70, 12), (1.68, -0.70, 12)):
+    for y, z, count in ((TOP_Y + 0.03, 0.33, 11), (TOP_Y + 0.0, 0.55, 9 if detail else 5), (1.32, -0.70, 12 if detail else 8),
+                        (1.68, -0.70, 12 if detail else 8)):
         run = int(r.integers(0, 3))
         for k in range(count):
             if r.random() < 0.3:
@@ -146,11 +147,11 @@ def _vase(radius, height, neck):
 def pottery(name, seed, detail):
     """Bowls in stacks, vases and jars in four glazes, on counter, shelf and ground."""
     model, r = Model(name), rng(seed)
-    segments = (6, 9, 20)[detail]
+    segments = (6, 8, 20)[detail]
     nested = [lathe(_bowl(q, h)[1:5], segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
     bowls = [lathe(_bowl(q, h), segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
     vases = [lathe(_vase(q, h, n), segments, 50) for q, h, n in ((0.09, 0.26, 0.4), (0.075, 0.36, 0.3), (0.12, 0.2, 0.55))]
-    big = lathe(_vase(0.24, 0.62, 0.5), segments + 3, 50)
+    big = lathe(_vase(0.24, 0.62, 0.5), segments + 2, 50)
     for k in range(9):
         x = (k - 4) * 0.27 + r.uniform(-0.03, 0.03)
         glaze = M.GLAZES[int(r.integers(0, 4))]
@@ -164,7 +165,7 @@ def pottery(name, seed, detail):
             y += 0.024
     for y in (1.32, 1.70):
         model.add(M.TIMBER, bevel_box(2.7, 0.024, 0.26, 0.004).with_uv_offset(y, 0.4), translate(0, y - 0.02, -0.70))
-        for k in range(6):
+        for k in range(6 if detail else 4):
             model.add(M.GLAZES[int(r.integers(0, 4))], vases[int(r.integers(0, 3))], translate(
                 (k - 2.5) * 0.42 + r.uniform(-0.04, 0.04), y - 0.008, -0.70) @ scale(r.uniform(0.75, 1.0)))
     for x in (-1.05, -0.55, 1.02):

@@ -99,6 +99,16 @@ DARK_GLASS = Material("dark window", (0.015, 0.02, 0.03), 0.08)
 PLASTIC = [Material("stool red", (0.55, 0.03, 0.025), 0.3), Material("stool blue", (0.03, 0.12, 0.42), 0.3)]
 
 
+def resized(picture, width, height):
+    """Bilinear, to sizes that are powers of two."""
+    def along(values, count):
+        at = np.clip((np.arange(count) + 0.5) * len(values) / count - 0.5, 0, len(values) - 1)
+        low = np.minimum(at.astype(int), len(values) - 2)
+        t = (at - low).reshape(-1, *[1] * (values.ndim - 1))
+        return values[low] * (1 - t) + values[low + 1] * t
+    return along(along(picture, height).swapaxes(0, 1), width).swapaxes(0, 1)
+
+
 def sign_picture(word, ground, ink, rim, vertical=False, height=128):
     """Emission picture of a lit sign board, linear; letters and a rim on a ground that glows unevenly."""
     lines = text.strokes(word, vertical=vertical)[1]

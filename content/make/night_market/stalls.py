@@ -15,6 +15,7 @@ from .goods import crate
 HALF_WIDTH_M = 1.45
 BACK_Z, FRONT_Z, AWNING_Z = -0.88, 0.85, 1.50
 BACK_Y, FRONT_Y = 2.78, 2.28
+BRACKET_Y, BRACKET_Z = 2.36, 1.83  # where a lantern hangs in front of the valance
 
 
 def awning_y(z):
@@ -42,6 +43,11 @@ def body(name, paint, curtain, seed, near):
         board = bevel_box(w - 0.006, 0.82 + r.uniform(-0.008, 0.008), 0.025, 0.004 * b)
         model.add(paint, board, translate((k - (boards - 1) / 2) * w, 0.45, 0.74 + r.uniform(-0.003, 0.003)))
     model.add(M.TIMBER, bevel_box(2.72, 0.045, 0.78, 0.008 * b).with_uv_offset(r.random(), r.random()), translate(0, 0.8975, 0.40))
+    for y, height in ((0.80, 0.10), (0.08, 0.09)):
+        model.add(M.TIMBER, bevel_box(2.64, height, 0.02, 0.005 * b), translate(0, y, 0.762))
+    for k in range(3):  # price cards along the edge
+        card = bevel_box(0.13, 0.17, 0.004, 0).at(rotate_z(r.uniform(-0.06, 0.06)))
+        model.add(M.LABEL, card, translate(-0.9 + 0.8 * k + r.uniform(-0.2, 0.2), 0.70, 0.778))
     for x in (-1.3, 1.3):
         model.add(paint, bevel_box(0.03, 0.86, 0.66, 0.004 * b), translate(x, 0.44, 0.41))
     model.add(curtain, drape(2.76, 2.5, seed, 21 if near else 15, 6 if near else 4), translate(0, BACK_Y - 0.12, BACK_Z + 0.05))
@@ -51,6 +57,13 @@ def body(name, paint, curtain, seed, near):
             side = drape(0.62, r.uniform(1.3, 2.3), seed + 7 + x, 9, 4)
             model.add(curtain, side, translate(x * 1.40, 2.55, -0.52) @ rotate_y(x * math.pi / 2))
     return model
+
+
+def bracket():
+    """Iron arm from the awning's frame to a hook."""
+    model = Model("bracket")
+    arm = [(0, FRONT_Y + 0.06, 1.2), (0, BRACKET_Y + 0.02, 1.6), (0, BRACKET_Y, BRACKET_Z), (0, BRACKET_Y - 0.04, BRACKET_Z)]
+    return model.add(M.IRON, sweep(arm, 0.011, 4))
 
 
 def drape(width, drop, seed, columns=21, rows=6):

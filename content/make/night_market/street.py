@@ -45,7 +45,7 @@ def window_model(name, pane):
 def curtained_pane(name, tint, nit, seed):
     """A lit room behind a drawn curtain: folds, brighter towards the lamp."""
     r = rng(seed)
-    x, y = np.meshgrid(np.linspace(0, 1, 48), np.linspace(0, 1, 48))
+    x, y = np.meshgrid(np.linspace(0, 1, 64), np.linspace(0, 1, 64))
     folds = 0.75 + 0.25 * np.sin(x * r.uniform(28, 44) + np.sin(y * 4) + r.uniform(0, 6))
     lamp = np.exp(-((x - r.uniform(0.3, 0.7)) ** 2 + (y - 0.35) ** 2) * 3.5)
     gap = np.where(np.abs(x - 0.5) < 0.05, 0.35, 1.0)
@@ -59,9 +59,9 @@ class Houses:
     def __init__(self, scene, parent):
         self.scene, self.parent = scene, parent
         self.windows = [window_model("window dark", M.DARK_GLASS)] * 3 + [
-            window_model("window amber", curtained_pane("amber curtain", (1.0, 0.55, 0.22), 15.0, 1)),
-            window_model("window gold", curtained_pane("gold curtain", (1.0, 0.70, 0.36), 10.0, 2)),
-            window_model("window green", curtained_pane("green curtain", (0.55, 0.85, 0.55), 5.0, 3))]
+            window_model("window amber", curtained_pane("amber curtain", (1.0, 0.55, 0.22), 20.0, 1)),
+            window_model("window gold", curtained_pane("gold curtain", (1.0, 0.70, 0.36), 14.0, 2)),
+            window_model("window green", curtained_pane("green curtain", (0.55, 0.85, 0.55), 7.0, 3))]
         unit = Model("air conditioner")
         unit.add(M.STEEL, bevel_box(0.8, 0.55, 0.3, 0.012), translate(0, 0, 0.2))
         unit.add(M.IRON, cylinder(0.21, 0.02, 20, 0.004), translate(-0.12, 0, 0.35) @ rotate_x(math.pi / 2))
@@ -133,6 +133,27 @@ def gate(name):
     return model
 
 
+def tea_house(light):
+    """Lit shop front that closes the main lane: paper screens between posts, a step, an eave. Faces +Z."""
+    model = Model("tea house")
+    size = 128
+    x, y = np.meshgrid((np.arange(size) + 0.5) / size, (np.arange(size) + 0.5) / size)
+    bars = np.minimum(np.abs((x * 8) % 1 - 0.5), np.abs((y * 5) % 1 - 0.5))
+    glow = 0.45 + 0.55 * np.exp(-((x - 0.5) ** 2 * 3 + (y - 0.55) ** 2 * 2))
+    picture = np.where(bars > 0.04, glow, 0.05)[..., None] * np.asarray(light.rgb() / max(light.rgb()))
+    mean = float(picture.mean(axis=(0, 1)).max())
+    face = Material("paper screens", (0.05, 0.05, 0.05), 0.7, emission_nit=(max(light.face_nit()) / mean,) * 3,
+                    emission_map=picture)
+    w, h = light.width_m, light.height_m
+    model.add(face, quad(w, h, unit_uv=True), translate(0, 0.35 + h / 2, 0))
+    for k in range(5):
+        model.add(M.TIMBER, bevel_box(0.14, h + 0.3, 0.16, 0.01), translate((k - 2) * w / 4, 0.35 + h / 2, 0.0))
+    model.add(M.TIMBER, bevel_box(w + 0.6, 0.22, 0.3, 0.015), translate(0, 0.45 + h, 0.05))
+    model.add(M.STONE, bevel_box(w + 1.2, 0.34, 0.9, 0.02), translate(0, 0.17, 0.2))
+    model.add(M.PAINTED[1], bevel_box(w + 1.4, 0.06, 1.3, 0.015), translate(0, 0.80 + h, 0.5) @ rotate_x(0.35))
+    return model
+
+
 # (x, y, turn about Z, length, colour) of the gate's tubes, in the plane z = 0.2.
 def gate_tubes():
     tubes = []
@@ -148,7 +169,7 @@ def gate_tubes():
     return tubes
 
 
-def night_sky(nit=1.5):
+def night_sky(nit=2.0):
     """Card far behind the houses: blue that is deeper above, a town's glow below."""
     size = 128
     y = np.linspace(1, 0, size)[:, None, None]
