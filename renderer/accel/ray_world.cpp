@@ -14,8 +14,8 @@ namespace {
 using namespace shared;
 
 constexpr std::uint32_t kWorldEntry = 0;
-constexpr std::uint32_t kStaticEntry = 1;
-constexpr std::uint32_t kFirstMovingEntry = 2;
+constexpr std::uint32_t kStaticEntry = RayWorld::kStaticEntry;
+constexpr std::uint32_t kFirstMovingEntry = RayWorld::kFirstMovingEntry;
 
 double msSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -59,6 +59,7 @@ void buildStatic(RayWorld& world, const Scene& scene, const std::vector<Instance
     world.staticBounds = bvh.bounds;
     world.staticGrid = bvh.grid;
     world.stats.sahCost = bvh.sahCost;
+    world.staticPairs = {std::uint32_t(world.pairs.size()), std::uint32_t(bvh.pairs.size())};
     world.staticRootRef = appendBvh(world, bvh);
 }
 
@@ -79,6 +80,7 @@ void buildMoving(RayWorld& world, const Scene& scene, const std::vector<Instance
             RayWorld::Moving placed;
             placed.localBounds = bvh.bounds;
             placed.grid = bvh.grid;
+            placed.pairRange = {std::uint32_t(world.pairs.size()), std::uint32_t(bvh.pairs.size())};
             placed.rootRef = appendBvh(world, bvh);
             known = shared.emplace(key, placed).first;
         }
@@ -230,20 +232,22 @@ RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances, 
 }
 
 void updateInstances(RayWorld& world, const std::vector<Instance>& instances, const glm::dvec3& anchor) {
-    const glm::vec3 staticPivot(world.staticAnchor - anchor);
-    const BvhEntry staticEntry = identityEntry(world.staticGrid, world.staticRootRef, staticPivot);
+    world.staticPivot = glm::vec3(world.staticAnchor - anchor);
+    const BvhEntry staticEntry = identityEntry(world.staticGrid, world.staticRootRef, world.staticPivot);
     world.entries.assign(kFirstMovingEntry + world.moving.size(), staticEntry);
     std::vector<TopItem> items;
     if (world.staticRootRef != BVH_REF_DONE)
-        items.push_back({{world.staticBounds.lower + staticPivot, world.staticBounds.upper + staticPivot},
+        items.push_back({{world.staticBounds.lower + world.staticPivot, world.staticBounds.upper + world.staticPivot},
                          BVH_REF_ENTER | kStaticEntry});
     const std::size_t staticItems = items.size();
     for (std::size_t i = 0; i < world.moving.size(); ++i) {
-        const RayWorld::Moving& placed = world.moving[i];
-        glm::dmat4 anchoredFromLocal = instances[placed.instance].worldFromLocal;
+        RayWorld::Moving& placed = world.moving[i];
+        glm::dmat4& anchoredFromLocal = placed.anchoredFromLocal;
+        anchoredFromLocal = instances[placed.instance].worldFromLocal;
         anchoredFromLocal[3] -= glm::dvec4(anchor, 0.0);
-        if (!isInvertible(anchoredFromLocal))
-            continue; // squashed to nothing: no ray can hit it
+        placed.placed = isInvertible(anchoredFromLocal);
+        if (!placed.placed)
+            continue;
         const std::uint32_t entry = kFirstMovingEntry + std::uint32_t(i);
         world.entries[entry] = movingEntry(placed, anchoredFromLocal, instances[placed.instance].firstTriangle);
         items.push_back({placedBounds(placed.localBounds, anchoredFromLocal), BVH_REF_ENTER | entry});

@@ -44,18 +44,31 @@ struct RayWorld {
 
     bool hasAlpha() const { return !alpha.records.empty(); }
 
-    // One placed BVH of a moving instance; its entry is 2 + its index here.
+    // The pairs of one BVH.
+    struct PairRange {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    // One placed BVH of a moving instance; its entry is kFirstMovingEntry + its index here.
+    static constexpr std::uint32_t kStaticEntry = 1;
+    static constexpr std::uint32_t kFirstMovingEntry = 2;
     struct Moving {
         std::uint32_t instance = 0;
+        PairRange pairRange;
+        glm::dmat4 anchoredFromLocal{1.0}; // as of the last updateInstances()
+        bool placed = false;               // false: its transform squashes it to nothing
         Box localBounds;
         BoxGrid grid;
         std::uint32_t rootRef = shared::BVH_REF_DONE;
     };
     std::vector<Moving> moving;
+    PairRange staticPairs;
     Box staticBounds; // relative to `staticAnchor`
     BoxGrid staticGrid;
     std::uint32_t staticRootRef = shared::BVH_REF_DONE;
     glm::dvec3 staticAnchor{0.0}; // what was subtracted from the static triangles
+    glm::vec3 staticPivot{0.0f};  // staticAnchor minus the present anchor
 };
 
 // `moving[i]` says that instance i shall be movable: its BVH is per mesh primitive and placed by a transform.

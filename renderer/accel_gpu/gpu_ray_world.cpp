@@ -6,11 +6,12 @@ namespace kilolux {
 namespace {
 
 template<typename T>
-gpu::Buffer texelBuffer(gpu::Device& device, const char* name, VkFormat format, const std::vector<T>& data) {
+gpu::Buffer texelBuffer(gpu::Device& device, const char* name, VkFormat format, const std::vector<T>& data,
+                        VkBufferUsageFlags moreUsage = 0) {
     gpu::BufferDesc desc;
     desc.name = name;
     desc.bytes = data.size() * sizeof(T);
-    desc.usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    desc.usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | moreUsage;
     desc.cause = "ray world";
     desc.texelFormat = format;
     gpu::Buffer buffer(device, desc);
@@ -21,12 +22,14 @@ gpu::Buffer texelBuffer(gpu::Device& device, const char* name, VkFormat format, 
 constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kUint2 = VK_FORMAT_R32G32_UINT;
+constexpr VkBufferUsageFlags kBuildInput = VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
+                                           VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
 } // namespace
 
 GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world)
     : hasAlpha_(world.hasAlpha()), nodes_(texelBuffer(device, "traceNodes", kUint4, world.nodes)),
-      pairs_(texelBuffer(device, "tracePairs", kFloat4, world.pairs)),
+      pairs_(texelBuffer(device, "tracePairs", kFloat4, world.pairs, device.hasRayQuery() ? kBuildInput : 0)),
       pairIds_(texelBuffer(device, "tracePairIds", kUint2, world.pairIds)),
       entries_(texelBuffer(device, "traceEntries", kUint4, world.entries)),
       instances_(texelBuffer(device, "traceInstances", kUint2, world.instances)),

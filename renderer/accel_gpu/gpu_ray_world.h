@@ -22,6 +22,13 @@ class GpuRayWorld {
     static std::vector<gpu::PassUse> alphaUses();
     gpu::Bindings alphaBindings() const;
 
+    // Pair corners as vertices: four of 12 bytes per pair. Readable by acceleration structure builds on devices
+    // with ray queries.
+    const gpu::Buffer& pairs() const { return pairs_; }
+    const gpu::Buffer& pairIds() const { return pairIds_; }
+    const gpu::Buffer& nodes() const { return nodes_; }
+    const gpu::Buffer& entries() const { return entries_; }
+
     bool hasAlpha() const { return hasAlpha_; } // the value for FEATURE_ALPHA_MASK
 
   private:

@@ -9,14 +9,14 @@ uniform accelerationStructureEXT rayQueryScene; // geometry 0 of each bottom lev
 // which name each triangle as pair * 2 + which of the two.
 uniform usamplerBuffer rayQueryTriangles;
 
-PairHit rayQueryHit(uint entry, uint geometry, uint primitive, vec2 barycentrics, float tM, bool frontFace) {
+PairHit rayQueryHit(uint entry, uint geometry, uint primitive, vec2 barycentrics, float tM) {
     uint header = texelFetch(rayQueryTriangles, int(entry)).x;
     uint list = texelFetch(rayQueryTriangles, int(header + geometry)).x;
     uint triangle = texelFetch(rayQueryTriangles, int(list + primitive)).x;
     PairHit hit;
     hit.tM = tM;
     hit.weights = vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics);
-    hit.backFace = !frontFace;
+    hit.backFace = false; // set by judgePlane
     hit.pair = triangle >> 1u;
     hit.second = triangle & 1u;
     hit.firstTriangle = fetchEntry(entry * BVH_ENTRY_TEXELS + 5u).z;
@@ -28,16 +28,18 @@ PairHit rayQueryHit(uint entry, uint geometry, uint primitive, vec2 barycentrics
     rayQueryHit(uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, committed)),                             \
                 uint(rayQueryGetIntersectionGeometryIndexEXT(query, committed)),                                   \
                 uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, committed)),                                  \
-                rayQueryGetIntersectionBarycentricsEXT(query, committed),                                          \
-                rayQueryGetIntersectionTEXT(query, committed), rayQueryGetIntersectionFrontFaceEXT(query, committed))
+                rayQueryGetIntersectionBarycentricsEXT(query, committed), rayQueryGetIntersectionTEXT(query, committed))
 
-// As the compute back end does: a triangle in whose plane the ray starts does not stop it.
-bool isOwnPlane(PairHit hit, vec3 origin) {
+// Sets the facing, from the corners because drivers disagree about windings, and returns whether the ray, given in
+// the BVH's space, starts in the triangle's plane: such a triangle does not stop it, as in the compute back end.
+bool judgePlane(inout PairHit hit, vec3 origin, vec3 dir) {
     uint texel = hit.pair * BVH_PAIR_TEXELS;
     vec4 p0 = fetchPair(texel), p1 = fetchPair(texel + 1u), p2 = fetchPair(texel + 2u);
-    vec3 a = p0.xyz - origin, b = vec3(p0.w, p1.xy) - origin, c = vec3(p1.zw, p2.x) - origin, d = p2.yzw - origin;
-    float facing = hit.backFace ? -1.0 : 1.0;
-    return hit.second == 0u ? startsInPlane(a, b, c, facing) : startsInPlane(c, b, d, facing);
+    vec3 b = vec3(p0.w, p1.xy) - origin, c = vec3(p1.zw, p2.x) - origin;
+    vec3 corner0 = hit.second == 0u ? p0.xyz - origin : c;
+    vec3 corner2 = hit.second == 0u ? c : p2.yzw - origin;
+    hit.backFace = dot(cross(b - corner0, corner2 - corner0), dir) > 0.0;
+    return startsInPlane(corner0, b, corner2, hit.backFace ? -1.0 : 1.0);
 }
 
 // One query; true when something was met. `own`: it is the plane that the ray starts in.
@@ -53,7 +55,8 @@ bool queryOnce(Ray ray, float tMinM, uint flags, out PairHit hit, out bool own) 
     own = false;
     if (rayQueryGetIntersectionTypeEXT(query, true) == gl_RayQueryCommittedIntersectionNoneEXT) return false;
     hit = KX_RAY_QUERY_HIT(query, true);
-    own = isOwnPlane(hit, rayQueryGetIntersectionObjectRayOriginEXT(query, true));
+    own = judgePlane(hit, rayQueryGetIntersectionObjectRayOriginEXT(query, true),
+                     rayQueryGetIntersectionObjectRayDirectionEXT(query, true));
     return true;
 }
 
