@@ -121,6 +121,14 @@ TEST(NormalMap, LeansWithThePicture) {
     EXPECT_NEAR(n.y / n.z, 2.0, 0.02) << "green is up, scale stretches the tangent part";
 }
 
+TEST(NormalMap, GreenIsUpOnAMirroredNodeToo) {
+    QuadScene scene(glm::scale(glm::dmat4(1.0), dvec3(-1, 1, 1)));
+    scene.material().normal.image = scene.addImage(1, 1, {128, 218, 218, 255});
+    const dvec3 n = scene.hitAt(0.5, 0.45)->point.shadingNormalWs;
+    EXPECT_NEAR(n.y, 0.7071, 0.003);
+    EXPECT_NEAR(n.z, 0.7071, 0.003);
+}
+
 TEST(NormalMap, SeenFromBehindItIsBentToTheView) {
     QuadScene scene;
     scene.material().normal.image = scene.addImage(1, 1, {255, 128, 150, 255}); // leans far to +X

@@ -1,6 +1,7 @@
 // The oracle's pictures: camera rays, pixel filters, determinism, and the sums that a picture must keep.
 #include "tests/unit/oracle/scene_builder.h"
 
+#include "renderer/document/gltf_import.h"
 #include "renderer/reference/oracle_random.h"
 
 #include <cstring>
@@ -145,6 +146,38 @@ TEST(Render, PointCallMatchesThePicture) {
         sum += r.diffuseNit + r.specularNit;
     }
     EXPECT_LE(glm::length(sum - pixel.radianceNit), 1e-9 * glm::length(sum));
+}
+
+// The scene that the renderer is compared on: opens, is lit, and both estimators keep the same light where nothing
+// is hidden and nearly the same in all.
+TEST(Render, Cornell) {
+    const Result<Scene> scene = importGltf(KILOLUX_SOURCE_DIR "/content/scenes/cornell.glb");
+    ASSERT_TRUE(scene) << scene.error();
+    ASSERT_FALSE(scene.value().cameras.empty());
+    const Oracle oracle(scene.value());
+    OracleOptions options;
+    const OracleImage exact = oracle.render(scene.value().cameras[0], 64, 64, options);
+    options.estimator = Estimator::Split;
+    const OracleImage split = oracle.render(scene.value().cameras[0], 64, 64, options);
+    double exactSum = 0.0, splitSum = 0.0, error2 = 0.0;
+    int lit = 0, covered = 0;
+    for (std::size_t i = 0; i < exact.pixels.size(); ++i) {
+        const OraclePixel& a = exact.pixels[i];
+        const OraclePixel& b = split.pixels[i];
+        ASSERT_TRUE(std::isfinite(a.radianceNit.g) && std::isfinite(b.radianceNit.g));
+        exactSum += a.radianceNit.g;
+        splitSum += b.radianceNit.g;
+        error2 += a.standardErrorNit.g * a.standardErrorNit.g;
+        covered += a.coverage == 1.0;
+        const double noise = a.standardErrorNit.g + b.standardErrorNit.g;
+        if (noise > 1e-9 * a.diffuseNit.g || a.diffuseNit.g <= 0.0) continue;
+        ++lit;
+        EXPECT_NEAR(a.diffuseNit.g, b.diffuseNit.g, 1e-9 * a.diffuseNit.g) << i;
+    }
+    EXPECT_GT(covered, 3000);
+    EXPECT_GT(lit, 500);
+    EXPECT_LT(std::sqrt(error2) / exactSum, 1e-3) << "noise of the mean";
+    EXPECT_NEAR(splitSum / exactSum, 1.0, 0.02);
 }
 
 TEST(Render, ShadePointsOnAGivenGBuffer) {
