@@ -8,17 +8,27 @@
 
 namespace kilolux {
 
-Camera derivedCamera(const Scene& scene) {
+Camera derivedCamera(const Scene& scene, double aspect) {
     const Bounds bounds = worldBounds(scene);
     const glm::dvec3 center = 0.5 * (bounds.min + bounds.max);
     const double radiusM = std::max(0.5 * glm::length(bounds.max - bounds.min), 1e-3);
     Camera camera;
     camera.name = "derived";
-    camera.yfovRad = glm::radians(45.0);
-    const double distanceM = 1.1 * radiusM / std::sin(0.5 * camera.yfovRad);
+    camera.yfovRad = glm::radians(40.0);
     const glm::dvec3 toCamera = glm::normalize(glm::dvec3(0.65, 0.45, 1.0));
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), toCamera));
     const glm::dvec3 up = glm::cross(toCamera, right);
+    // The least distance from which every corner of the bounds is inside the picture, with a margin.
+    const double tanY = std::tan(0.5 * camera.yfovRad), tanX = tanY * aspect;
+    double distanceM = 0.1 * radiusM;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 p = glm::dvec3(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                                        corner & 4 ? bounds.max.z : bounds.min.z) - center;
+        const double depth = glm::dot(p, toCamera);
+        distanceM = std::max({distanceM, depth + std::abs(glm::dot(p, right)) / tanX,
+                              depth + std::abs(glm::dot(p, up)) / tanY});
+    }
+    distanceM *= 1.05;
     camera.worldFromCamera = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(toCamera, 0),
                                         glm::dvec4(center + toCamera * distanceM, 1));
     camera.znearM = 1e-3 * distanceM;

@@ -10,8 +10,9 @@
 
 namespace kilolux {
 
-// A camera that shows the whole scene from a corner, for files without one. Named "derived".
-Camera derivedCamera(const Scene& scene);
+// A camera that shows the whole scene from a corner in a picture of this shape (width / height), for files
+// without one. Named "derived".
+Camera derivedCamera(const Scene& scene, double aspect);
 
 // The point that GPU positions are relative to: the camera's position rounded to a coarse grid, so that it
 // moves in steps; the origin itself while the camera is within `gridM` of it.

@@ -66,8 +66,9 @@ void addDefaultLight(Scene& scene, const Camera& camera) {
     scene.lights.push_back(light);
 }
 
-Result<Camera> chooseCamera(const Scene& scene, const std::string& name) {
-    if (name.empty()) return scene.cameras.empty() ? derivedCamera(scene) : scene.cameras.front();
+Result<Camera> chooseCamera(const Scene& scene, const std::string& name, double aspect) {
+    if (name == "derived" || (name.empty() && scene.cameras.empty())) return derivedCamera(scene, aspect);
+    if (name.empty()) return scene.cameras.front();
     std::string known;
     for (const Camera& camera : scene.cameras) {
         if (camera.name == name) return camera;
@@ -122,7 +123,7 @@ std::optional<Error> Renderer::Impl::prepare() {
     const std::optional<int> method = indexOfChoice(methodChoices(), options.method);
     if (!view) return Error{fmt::format("no view '{}'", options.view)};
     if (!method) return Error{fmt::format("no method '{}'", options.method)};
-    Result<Camera> chosen = chooseCamera(scene, options.camera);
+    Result<Camera> chosen = chooseCamera(scene, options.camera, double(options.width) / options.height);
     if (!chosen) return Error{chosen.error()};
     camera = chosen.value();
     if (scene.lights.empty()) {
