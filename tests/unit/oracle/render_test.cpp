@@ -148,8 +148,8 @@ TEST(Render, PointCallMatchesThePicture) {
     EXPECT_LE(glm::length(sum - pixel.radianceNit), 1e-9 * glm::length(sum));
 }
 
-// The scene that the renderer is compared on: opens, is lit, and both estimators keep the same light where nothing
-// is hidden and nearly the same in all.
+// The scene that the renderer is compared on: opens, is lit, and both estimators keep the same light where
+// nothing is hidden and nearly the same in all.
 TEST(Render, Cornell) {
     const Result<Scene> scene = importGltf(KILOLUX_SOURCE_DIR "/content/scenes/cornell.glb");
     ASSERT_TRUE(scene) << scene.error();
