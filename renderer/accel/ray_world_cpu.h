@@ -13,7 +13,7 @@ struct CpuHit {
     std::uint32_t instance; // 0xFFFFFFFF: none
     std::uint32_t primitive;
     glm::vec2 barycentrics;
-    bool backFace;
+    bool backFace; // as glTF has it: a mirroring transform turns the winding round
 };
 
 // `dir` is unit length; hits count in [tMinM, tMaxM). Coordinates are world minus anchor.

@@ -1,6 +1,8 @@
 // Uploads a RayWorld.
 #include "renderer/accel_gpu/gpu_ray_world.h"
 
+#include "renderer/accel_gpu/ray_query_world.h"
+
 namespace kilolux {
 
 namespace {
@@ -27,20 +29,28 @@ constexpr VkBufferUsageFlags kBuildInput = VK_BUFFER_USAGE_ACCELERATION_STRUCTUR
 
 } // namespace
 
-GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world)
+GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world, TraceBackEnd backEnd)
     : hasAlpha_(world.hasAlpha()), nodes_(texelBuffer(device, "traceNodes", kUint4, world.nodes)),
-      pairs_(texelBuffer(device, "tracePairs", kFloat4, world.pairs, device.hasRayQuery() ? kBuildInput : 0)),
+      pairs_(texelBuffer(device, "tracePairs", kFloat4, world.pairs,
+                         backEnd == TraceBackEnd::RayQuery ? kBuildInput : 0)),
       pairIds_(texelBuffer(device, "tracePairIds", kUint2, world.pairIds)),
       entries_(texelBuffer(device, "traceEntries", kUint4, world.entries)),
       instances_(texelBuffer(device, "traceInstances", kUint2, world.instances)),
       alphaTexels_(texelBuffer(device, "alphaTexels", VK_FORMAT_R8_UNORM, world.alpha.texels)),
       alphaRecords_(texelBuffer(device, "alphaRecords", kUint4, world.alpha.records)),
-      alphaTriangles_(texelBuffer(device, "alphaTriangles", kUint4, world.alpha.triangles)) {}
+      alphaTriangles_(texelBuffer(device, "alphaTriangles", kUint4, world.alpha.triangles)) {
+    if (backEnd == TraceBackEnd::RayQuery)
+        rayQuery_ = std::make_unique<RayQueryWorld>(device, world, *this);
+}
+
+GpuRayWorld::~GpuRayWorld() = default;
 
 void GpuRayWorld::update(const RayWorld& world) {
     entries_.upload(world.entries);
     if (world.topNodeCapacity > 0)
         nodes_.upload(std::as_bytes(std::span(world.nodes.data(), world.topNodeCapacity)));
+    if (rayQuery_)
+        rayQuery_->update(world);
 }
 
 std::vector<gpu::PassUse> GpuRayWorld::alphaUses() {
@@ -54,19 +64,28 @@ gpu::Bindings GpuRayWorld::alphaBindings() const {
             {"alphaTriangles", alphaTriangles_}};
 }
 
-std::vector<gpu::PassUse> GpuRayWorld::traceUses() {
+std::vector<gpu::PassUse> GpuRayWorld::traceUses(TraceBackEnd backEnd) {
     std::vector<gpu::PassUse> uses = alphaUses();
-    for (const char* name : {"traceNodes", "tracePairs", "tracePairIds", "traceEntries"})
+    for (const char* name : {"tracePairs", "tracePairIds", "traceEntries"})
         uses.push_back({name});
+    if (backEnd == TraceBackEnd::ComputeBvh)
+        uses.push_back({"traceNodes"});
+    else
+        uses.insert(uses.end(), {{"rayQueryTriangles"}, {"rayQueryScene"}});
     return uses;
 }
 
 gpu::Bindings GpuRayWorld::traceBindings() const {
     gpu::Bindings bindings = alphaBindings();
-    bindings.push_back({"traceNodes", nodes_});
     bindings.push_back({"tracePairs", pairs_});
     bindings.push_back({"tracePairIds", pairIds_});
     bindings.push_back({"traceEntries", entries_});
+    if (rayQuery_) {
+        bindings.push_back({"rayQueryTriangles", rayQuery_->triangles()});
+        bindings.push_back({"rayQueryScene", rayQuery_->scene()});
+    } else {
+        bindings.push_back({"traceNodes", nodes_});
+    }
     return bindings;
 }
 

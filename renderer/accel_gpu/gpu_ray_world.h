@@ -1,22 +1,34 @@
-// A RayWorld in device buffers, bound under the names of shaders/lib/trace.glsl and alpha.glsl.
+// A RayWorld in device buffers, bound under the names of shaders/lib/trace.glsl and alpha.glsl, and where asked for
+// in acceleration structures too.
 #pragma once
 
 #include "renderer/accel/ray_world.h"
 #include "renderer/gpu/pass.h"
 
+#include <memory>
 #include <vector>
 
 namespace kilolux {
 
+class RayQueryWorld;
+
+enum class TraceBackEnd {
+    ComputeBvh, // every device
+    RayQuery,   // where Device::hasRayQuery(); passes define KX_RAY_QUERY
+};
+
 class GpuRayWorld {
   public:
-    GpuRayWorld(gpu::Device& device, const RayWorld& world);
+    GpuRayWorld(gpu::Device& device, const RayWorld& world, TraceBackEnd backEnd = TraceBackEnd::ComputeBvh);
+    ~GpuRayWorld();
+    GpuRayWorld(const GpuRayWorld&) = delete;
+    GpuRayWorld& operator=(const GpuRayWorld&) = delete;
 
     // After updateInstances(): the entries and the top level, nothing else. The device must be idle.
     void update(const RayWorld& world);
 
     // What a pass that includes lib/trace.glsl declares and binds, beside its own.
-    static std::vector<gpu::PassUse> traceUses();
+    static std::vector<gpu::PassUse> traceUses(TraceBackEnd backEnd = TraceBackEnd::ComputeBvh);
     gpu::Bindings traceBindings() const;
     // The same for one that includes lib/alpha.glsl alone.
     static std::vector<gpu::PassUse> alphaUses();
@@ -35,6 +47,7 @@ class GpuRayWorld {
     bool hasAlpha_ = false;
     gpu::Buffer nodes_, pairs_, pairIds_, entries_, instances_;
     gpu::Buffer alphaTexels_, alphaRecords_, alphaTriangles_;
+    std::unique_ptr<RayQueryWorld> rayQuery_;
 };
 
 } // namespace kilolux

@@ -176,21 +176,4 @@ void RayQueryWorld::update(const RayWorld& world) {
                  {std::uint32_t(instances.size())});
 }
 
-std::vector<gpu::PassUse> RayQueryWorld::traceUses() {
-    std::vector<gpu::PassUse> uses = GpuRayWorld::alphaUses();
-    for (const char* name : {"tracePairs", "tracePairIds", "traceEntries", "rayQueryTriangles", "rayQueryScene"})
-        uses.push_back({name});
-    return uses;
-}
-
-gpu::Bindings RayQueryWorld::traceBindings() const {
-    gpu::Bindings bindings = buffers_.alphaBindings();
-    bindings.push_back({"tracePairs", buffers_.pairs()});
-    bindings.push_back({"tracePairIds", buffers_.pairIds()});
-    bindings.push_back({"traceEntries", buffers_.entries()});
-    bindings.push_back({"rayQueryTriangles", triangles_});
-    bindings.push_back({"rayQueryScene", top_});
-    return bindings;
-}
-
 } // namespace kilolux

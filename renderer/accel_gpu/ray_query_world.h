@@ -17,9 +17,9 @@ class RayQueryWorld {
     // After updateInstances(): rebuilds the top level. The device must be idle.
     void update(const RayWorld& world);
 
-    // What a pass that includes lib/trace_ray_query.glsl declares and binds, beside its own.
-    static std::vector<gpu::PassUse> traceUses();
-    gpu::Bindings traceBindings() const;
+    // Bound as rayQueryTriangles and rayQueryScene.
+    const gpu::Buffer& triangles() const { return triangles_; }
+    const gpu::AccelerationStructure& scene() const { return top_; }
 
   private:
     void buildBottom(const RayWorld& world, RayWorld::PairRange range, std::vector<std::uint32_t>& table);

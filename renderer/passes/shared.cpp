@@ -26,8 +26,7 @@ std::vector<PassUse> surfaceUses() {
 }
 
 std::vector<PassUse> traceUses(Tracer tracer) {
-    if (tracer == Tracer::RayQuery) return joined({GpuRayWorld::alphaUses(), {{"traceScene"}}});
-    return GpuRayWorld::traceUses();
+    return GpuRayWorld::traceUses(tracer == Tracer::RayQuery ? TraceBackEnd::RayQuery : TraceBackEnd::ComputeBvh);
 }
 
 std::vector<PassUse> lightUses() {

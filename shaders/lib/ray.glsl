@@ -18,7 +18,7 @@ struct Hit {
     uint instance;     // HIT_NONE: the ray has met nothing
     uint primitive;    // index of the triangle within the instance's mesh primitive
     vec2 barycentrics; // weights of its second and third corner
-    bool backFace;     // the triangle's corners run clockwise seen from the ray's origin
+    bool backFace;     // seen from behind, by glTF's rule: a mirroring transform turns the winding round
 };
 
 KX_INLINE Hit noHit() {

@@ -1,5 +1,5 @@
 // World tracing: bool occluded(Ray) and Hit nearest(Ray). Two back ends with the same answers within ties at
-// shared edges: the compute BVH, on every device, and with KILOLUX_RAY_QUERY defined VK_KHR_ray_query.
+// shared edges: the compute BVH, on every device, and with KX_RAY_QUERY defined VK_KHR_ray_query.
 #ifndef KILOLUX_TRACE_GLSL
 #define KILOLUX_TRACE_GLSL
 #include "../math/prelude.glsl"
@@ -29,7 +29,7 @@ uint traceInstanceCount() {
 }
 
 #include "trace_hit.glsl"
-#ifdef KILOLUX_RAY_QUERY
+#ifdef KX_RAY_QUERY
 #include "trace_ray_query.glsl"
 #else
 #include "trace_bvh.glsl"

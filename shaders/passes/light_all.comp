@@ -7,11 +7,7 @@
 #include "lib/dispatch.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/light_access.glsl"
-#ifdef KX_RAY_QUERY
-#include "lib/trace_ray_query.glsl"
-#else
 #include "lib/trace.glsl"
-#endif
 #include "math/color.glsl"
 #include "math/hash.glsl"
 

@@ -3,11 +3,7 @@
 // materials are passed through, as glTF culls them.
 #include "lib/dispatch.glsl"
 #include "lib/geometry.glsl"
-#ifdef KX_RAY_QUERY
-#include "lib/trace_ray_query.glsl"
-#else
 #include "lib/trace.glsl"
-#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rg32ui) writeonly uniform uimage2D visibilityOut;
@@ -25,9 +21,7 @@ void main() {
     Hit hit = nearest(ray);
     for (int i = 0; i < kMaxBackFaces && hit.instance != HIT_NONE; ++i) {
         uint flags = instances[hit.instance].flags;
-        bool mirrored = (flags & INSTANCE_MIRRORED) != 0u;
-        // backFace speaks of the corner order in world space, which a mirroring turns round.
-        if ((flags & INSTANCE_DOUBLE_SIDED) != 0u || hit.backFace == mirrored) break;
+        if ((flags & INSTANCE_DOUBLE_SIDED) != 0u || !hit.backFace) break;
         ray.tMinM = hit.tM + max(1.0e-6 * hit.tM, 1.0e-7);
         hit = nearest(ray);
     }

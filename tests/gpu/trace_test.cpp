@@ -4,7 +4,7 @@
 #include "tests/unit/accel/scene_kit.h"
 
 #include "renderer/accel/ray_world_cpu.h"
-#include "renderer/accel_gpu/ray_query_world.h"
+#include "renderer/accel_gpu/gpu_ray_world.h"
 #include "shaders/shared/features.h"
 
 #include <cmath>
@@ -33,11 +33,10 @@ class TraceTest : public GpuTest {
     }
 
     std::vector<TracedRay> runRayQuery(const RayWorld& world, const std::vector<TestRay>& rays) {
-        const GpuRayWorld buffers(device(), world);
-        const RayQueryWorld query(device(), world, buffers);
-        gpu::ComputePass pass(resources(), "trace_rays", withTestUses(RayQueryWorld::traceUses()), {},
-                              {"KILOLUX_RAY_QUERY"});
-        return run(pass, query.traceBindings(), world.hasAlpha(), rays);
+        const GpuRayWorld buffers(device(), world, TraceBackEnd::RayQuery);
+        gpu::ComputePass pass(resources(), "trace_rays", withTestUses(GpuRayWorld::traceUses(TraceBackEnd::RayQuery)), {},
+                              {"KX_RAY_QUERY"});
+        return run(pass, buffers.traceBindings(), world.hasAlpha(), rays);
     }
 
     // Same hits within ties; returns how many rays differ.
