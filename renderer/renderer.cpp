@@ -30,14 +30,17 @@ std::filesystem::path contentDirectory() {
     return KILOLUX_CONTENT_DIR;
 }
 
-bool wantsValidation() {
-    const char* value = std::getenv("KILOLUX_VALIDATION");
-    return value && *value && std::string_view(value) != "0";
+// KILOLUX_VALIDATION=1: core and synchronization; =gpu: GPU-assisted. Any message fails the render.
+gpu::Validation wantedValidation() {
+    const char* text = std::getenv("KILOLUX_VALIDATION");
+    const std::string_view value = text ? text : "";
+    if (value.empty() || value == "0") return gpu::Validation::Off;
+    return value == "gpu" ? gpu::Validation::GpuAssisted : gpu::Validation::On;
 }
 
 gpu::DeviceOptions deviceOptions() {
     gpu::DeviceOptions options;
-    if (wantsValidation()) options.validation = gpu::Validation::On;
+    options.validation = wantedValidation();
     if (const char* name = std::getenv("KILOLUX_DEVICE"); name && *name) options.nameContains = name;
     return options;
 }
