@@ -37,7 +37,8 @@ KX_INLINE LtcWalk startWalk() {
     return walk;
 }
 
-KX_INLINE void walkEdge(INOUT(LtcWalk) walk, vec3 a, vec3 b) {
+// `plane` is the edge's plane where that is known beforehand, else 0.
+KX_INLINE void walkEdge(INOUT(LtcWalk) walk, vec3 a, vec3 b, vec3 plane) {
     if (a.z < 0.0 && b.z < 0.0)
         return;
     vec3 from = a;
@@ -49,11 +50,11 @@ KX_INLINE void walkEdge(INOUT(LtcWalk) walk, vec3 a, vec3 b) {
         to = horizonCrossing(b, b.z, a, a.z);
         walk.exit_ = to;
     }
-    walk.sum += edgeVectorIrradiance(from, to);
+    walk.sum += dot(plane, plane) > 0.0 ? edgeInPlane(from, to, plane) : edgeVectorIrradiance(from, to);
 }
 
 KX_INLINE vec3 walkSum(LtcWalk walk) {
-    return (walk.sum + edgeVectorIrradiance(walk.exit_, walk.entry)) * 0.5;
+    return (walk.sum + edgeInPlane(walk.exit_, walk.entry, vec3(0.0, 0.0, 1.0))) * 0.5;
 }
 
 // The outline edge by edge in world space, clipped to the horizon.
@@ -141,6 +142,8 @@ KX_INLINE OutlineIntegral integrateOutline(EmitterOutline outline, ShadingPoint 
     result.covered = 0.0;
     result.specular = vec2(0.0);
     vec3 middle = vec3(0.0, 0.0, 1.0);
+    vec3 ltcNormal = transpose(lobe.worldFromLtc) * point.normalWs;
+    ltcNormal = ltcNormal * inversesqrt(max(dot(ltcNormal, ltcNormal), 1.0e-30));
     LtcWalk part = startWalk(); // of the whole light, then of a sector
     for (int turn = 0; turn < 2; ++turn) {
         OutlineWalk walk = startOutlineWalk(outline, point.normalWs);
@@ -148,19 +151,22 @@ KX_INLINE OutlineIntegral integrateOutline(EmitterOutline outline, ShadingPoint 
             stepOutline(walk, outline, point.normalWs, i);
             if (!walk.visible)
                 continue;
+            bool closing = i == outline.count;
+            vec3 plane = closing ? ltcNormal : vec3(0.0);
             vec3 from = lobe.ltcFromWorld * walk.from;
             vec3 to = lobe.ltcFromWorld * walk.to;
             bool begins = turn == 1 && walk.begins;
             bool ends = turn == 1 && walk.ends;
             if (turn == 0)
-                result.diffuse += edgeVectorIrradiance(walk.from, walk.to) * 0.5;
+                result.diffuse += 0.5 * (closing ? edgeInPlane(walk.from, walk.to, point.normalWs)
+                                                 : edgeVectorIrradiance(walk.from, walk.to));
             if (begins) {
                 part = startWalk();
-                walkEdge(part, middle, from);
+                walkEdge(part, middle, from, vec3(0.0));
             }
-            walkEdge(part, from, to);
+            walkEdge(part, from, to, plane);
             if (ends) {
-                walkEdge(part, to, middle);
+                walkEdge(part, to, middle, vec3(0.0));
                 result.specular += correctedSector(point, lobe, walkSum(part));
             }
         }
@@ -205,7 +211,8 @@ KX_INLINE LightIrradiance outlineIrradiance(EmitterOutline outline, ShadingPoint
     float radius = outline.angularRadius;
     bool cut = abs(cosine) < radius && radius > 1.0e-3; // by the horizon, and large enough to be walked in float
     bool small_ = radius <= min(0.01, 0.1 * point.alpha) && !cut;
-    if (small_ || outline.solidAngle <= 0.0 || cosine + radius <= 0.0)
+    bool edgeOn = outline.solidAngle < 1.0e-3 * radius * radius && radius < 0.25; // a sliver, lost in rounding
+    if (small_ || edgeOn || outline.solidAngle <= 0.0 || cosine + radius <= 0.0)
         return smallIrradiance(outline, point, emission);
     OutlineIntegral sum = integrateOutline(outline, point, lobe);
     LightIrradiance result;

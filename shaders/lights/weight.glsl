@@ -7,10 +7,12 @@
 // What a weight needs of a light's geometry.
 struct LightProxy {
     vec3 dirWs;       // unit, towards the middle of the light as it is seen
-    float solidAngle; // about; 1/m^2 for points, 1 for delta directions; 0 only where the light does not reach
+    float solidAngle; // about; 1/m^2 for points, 1 for delta directions
     float sinRadius;  // of a cone about dirWs that holds the light
     vec3 longDirWs;   // unit, square to dirWs: the way the light extends to sinRadius
     float sinShort;   // how far it extends across
+    vec3 boundDirWs;  // axis and radius of a cone that surely holds the light
+    float boundSin;
 };
 
 KX_INLINE LightProxy roundProxy(vec3 dirWs, float solidAngle, float sinRadius) {
@@ -20,6 +22,8 @@ KX_INLINE LightProxy roundProxy(vec3 dirWs, float solidAngle, float sinRadius) {
     proxy.sinRadius = sinRadius;
     proxy.longDirWs = vec3(0.0);
     proxy.sinShort = sinRadius;
+    proxy.boundDirWs = dirWs;
+    proxy.boundSin = sinRadius;
     return proxy;
 }
 
@@ -46,6 +50,9 @@ KX_INLINE LightProxy tubeProxy(LightHot light, vec3 toCenter) {
     vec3 along = axis - middle * dot(axis, middle);
     proxy.longDirWs = along * inversesqrt(max(dot(along, along), 1.0e-12));
     proxy.sinShort = radius * inversesqrt(nearest2);
+    float invDistance = inversesqrt(max(dot(toCenter, toCenter), 1.0e-12));
+    proxy.boundDirWs = toCenter * invDistance;
+    proxy.boundSin = min((light.sizeM.y + radius) * invDistance, 1.0);
     return proxy;
 }
 
@@ -70,8 +77,8 @@ KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
     bool rect = type == LIGHT_RECT;
     float area = rect ? rectAreaM2(light) : diskAreaM2(light);
     float extent = rect ? length(light.sizeM) : light.sizeM.x;
-    float facing = -dot(light.dirWs, dir);
-    float solidAngle = facing > 0.0 ? area * max(facing, 1.0e-4) / (distance2 + area * KX_INV_PI) : 0.0;
+    float facing = max(-dot(light.dirWs, dir), 1.0e-4); // lightEvaluate has sorted out the side behind
+    float solidAngle = area * facing / (distance2 + area * KX_INV_PI);
     LightProxy proxy = roundProxy(dir, solidAngle, min(extent * invDistance, 1.0));
     if (rect) {
         mat3 frame = lightFrame(light);
@@ -87,7 +94,7 @@ KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
 // `emission` is lightEvaluate() at the point; `diffuseAlbedo` and `f0` are the surface's luminances.
 KX_INLINE float proxyWeight(LightProxy proxy, ShadingPoint point, vec3 emission, float diffuseAlbedo, float f0) {
     float cosine = dot(point.normalWs, proxy.dirWs);
-    if (cosine + proxy.sinRadius <= 0.0 || proxy.solidAngle <= 0.0)
+    if (dot(point.normalWs, proxy.boundDirWs) + proxy.boundSin <= 0.0)
         return 0.0;
     vec2 cut = horizonCut(cosine, proxy.sinRadius);
     float visible = proxy.solidAngle * max(cut.x, 1.0e-4);

@@ -75,6 +75,12 @@ KX_INLINE vec3 edgeVectorIrradiance(vec3 a, vec3 b) {
     return sine > 0.0 ? across * (angle / sine) : vec3(0.0);
 }
 
+// The same where the plane's unit normal is known: an edge along a horizon. Right also where a and b lie on opposite
+// sides of the receiver and their cross product says nothing.
+KX_INLINE vec3 edgeInPlane(vec3 a, vec3 b, vec3 plane) {
+    return plane * angleFromCosSin(dot(a, b), length(cross(a, b - a)));
+}
+
 // Where the segment from `below` (height < 0) to `above` (height >= 0) crosses height 0.
 KX_INLINE vec3 horizonCrossing(vec3 below, float heightBelow, vec3 above, float heightAbove) {
     return mix(below, above, heightBelow / min(heightBelow - heightAbove, -1.0e-30));

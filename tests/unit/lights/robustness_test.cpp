@@ -84,7 +84,9 @@ TEST_P(Robustness, FloatAgreesWithDoubleAndStaysFinite) {
         ASSERT_TRUE(sound(exact.diffuse) && sound(exact.specular.x) && sound(exact.specular.y)) << describe(c);
         if ((found.emission.x > 0.0f) != (exact.emission.x > 0.0))
             continue; // on the plane of a one-sided light
-        const double full = std::min(f64::lightOutline(light, dvec3(c.receiver), 1.0).solidAngle, kPi);
+        // What the light would give if it were turned to the receiver and stood overhead.
+        const f64::EmitterOutline outline = f64::lightOutline(light, dvec3(c.receiver), 1.0);
+        const double full = std::max(std::min(outline.solidAngle, kPi), kPi * outline.angularRadius * outline.angularRadius);
         diffuse.emplace_back(std::abs(found.diffuse - exact.diffuse) / std::max({exact.diffuse, 0.01 * full, 1e-30}), describe(c));
         const double value = exact.specular.x + exact.specular.y;
         const double most = std::min(full / (kPi * 4.0 * std::pow(exactPoint.alpha, 2.0)), exactLobe.albedo.x + exactLobe.albedo.y);
