@@ -169,7 +169,7 @@ Problem renderCommand(Arguments& arguments) {
 
 constexpr const char* kExamples = R"(Examples:
   kilolux render gallery.glb -o gallery.png
-  kilolux render gallery.glb -o wide.exr --size 1280x720 --method reference-true --frames 64
+  kilolux render gallery.glb -o wide.exr --size 1280x720 --method true --frames 64
   kilolux render gallery.glb -o normals.png --view normal --camera close
   kilolux render gallery.glb -o dark.png --set exposureEv100=9 --set toneMap=none --stats dark.json
   kilolux render --list            names of methods, views and settings, with what they do
