@@ -2,6 +2,8 @@
 // read and never held whole. The kind of file is told by its first bytes, not by its name.
 #include "renderer/document/image_import.h"
 
+#include "renderer/document/image_probe.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
@@ -72,6 +74,11 @@ std::uint8_t mean(int sum, int count) {
 // Box-filters `rows` rows of `width` RGBA pixels into one row of ceil(width / factor).
 template<typename T, typename Sum>
 void shrinkRows(const T* source, int width, int rows, int factor, T* target) {
+    if (factor == 1) {
+        for (int i = 0; i < width * kChannels; ++i)
+            target[i] = finite(source[i]);
+        return;
+    }
     const int targetWidth = (width + factor - 1) / factor;
     for (int x = 0; x < targetWidth; ++x) {
         const int x0 = x * factor, x1 = std::min(width, x0 + factor);
@@ -126,30 +133,6 @@ std::string readerError(OIIO::ImageInput* input) {
     return error.empty() ? "the file ends early or is damaged" : error;
 }
 
-// What a decoder would hold of the whole picture while it opens it: the coefficients of a progressive JPEG,
-// the pixels of an interlaced PNG; 0 for files that are decoded row by row. A small file can claim gigabytes
-// here.
-std::uint64_t bufferedBytes(std::span<const std::uint8_t> file) {
-    const auto u16 = [&](std::size_t at) { return static_cast<std::uint64_t>(file[at]) << 8 | file[at + 1]; };
-    if (startsWith(file, "\x89PNG") && file.size() > 28 && file[28] != 0) {
-        return (u16(16) << 16 | u16(18)) * (u16(20) << 16 | u16(22)) * 8;
-    }
-    if (!startsWith(file, "\xFF\xD8")) return 0;
-    for (std::size_t at = 2; at + 9 < file.size();) { // ITU-T T.81, annex B: segments up to the frame header
-        const std::uint8_t marker = file[at + 1];
-        if (file[at] != 0xFF || marker == 0xFF) {
-            ++at;
-            continue;
-        }
-        const bool isFrame =
-            marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
-        const bool isSequential = marker <= 0xC1;
-        if (isFrame) return isSequential ? 0 : u16(at + 5) * u16(at + 7) * file[at + 9] * 2;
-        at += 2 + u16(at + 2);
-    }
-    return 0;
-}
-
 std::optional<Error> checkSpec(const Reader& reader, const ImageImportOptions& options) {
     const OIIO::ImageSpec& spec = reader.spec;
     if (spec.deep || spec.depth > 1)
@@ -180,13 +163,8 @@ std::optional<Error> openReader(std::span<const std::uint8_t> file, const ImageI
     const auto format = recognize(file);
     if (!format) return complain(reader.name, "expected a PNG, JPEG, OpenEXR or Radiance HDR image");
     reader.isHdr = format->isHdr;
-    const std::uint64_t buffered = bufferedBytes(file), bufferedLimit = defaultLimit(file);
-    if (buffered > bufferedLimit) {
-        return complain(reader.name,
-                        fmt::format("expected an interlaced or progressive image of at most {} MiB, found "
-                                    "{} MiB",
-                                    bufferedLimit >> 20, buffered >> 20));
-    }
+    const auto complaint = complaintAboutClaims(file, options.maxSizePx, defaultLimit(file));
+    if (complaint) return complain(reader.name, *complaint);
     reader.memory =
         std::make_unique<OIIO::Filesystem::IOMemReader>(const_cast<std::uint8_t*>(file.data()), file.size());
     reader.input = OIIO::ImageInput::create(format->reader, false, nullptr, reader.memory.get());
