@@ -24,7 +24,7 @@ struct View {
 
 struct Sample {
     glm::dvec3 dir;
-    double value; // GGX D * V * cosine
+    double value;  // GGX D * V * cosine
     double perPdf; // solid angle that the sample stands for
 };
 
@@ -56,8 +56,7 @@ std::vector<Sample> sampleLobe(const View& view, int count) {
     for (int i = 0; i < count; ++i)
         for (int j = 0; j < count; ++j) {
             const glm::dvec3 dir = mirroredDirection(view, (i + 0.5) / count, (j + 0.5) / count);
-            if (dir.z <= 0.0)
-                continue;
+            if (dir.z <= 0.0) continue;
             const glm::dvec3 half = glm::normalize(dir + view.dir);
             const double sin2 = half.x * half.x + half.y * half.y;
             const double pdf = g1 * f64::ggxD(half.z, sin2, view.alpha) / (4.0 * view.noV);
@@ -68,8 +67,8 @@ std::vector<Sample> sampleLobe(const View& view, int count) {
 }
 
 struct Albedo {
-    double all = 0.0;       // integral of D * V * cosine
-    double grazing = 0.0;   // the same times Schlick's weight
+    double all = 0.0;     // integral of D * V * cosine
+    double grazing = 0.0; // the same times Schlick's weight
 };
 
 Albedo integrateLobe(const View& view) {
@@ -77,8 +76,7 @@ Albedo integrateLobe(const View& view) {
     for (const Sample& sample : sampleLobe(view, 192)) {
         const double value = sample.value * sample.perPdf;
         albedo.all += value;
-        albedo.grazing +=
-            value * f64::ggxTimesCosine(kNormal, view.dir, view.noV, sample.dir, view.alpha).y;
+        albedo.grazing += value * f64::ggxTimesCosine(kNormal, view.dir, view.noV, sample.dir, view.alpha).y;
     }
     return albedo;
 }
@@ -89,8 +87,8 @@ f64::LtcLobe lobeOf(const View& view, const glm::dvec4& parameters, double integ
     return lobe;
 }
 
-// What the search minimizes: squared error against value plus 2 % of the peak, so that neither the peak nor the
-// flanks are given up.
+// What the search minimizes: squared error against value plus 2 % of the peak, so that neither the peak nor
+// the flanks are given up.
 struct ShapeError {
     const View& view;
     const std::vector<Sample>& samples;
@@ -101,7 +99,8 @@ struct ShapeError {
     double operator()(const glm::dvec4& point) const {
         if (std::abs(point.x) > 8.0 || std::abs(point.y) > 8.0 || std::abs(point.w) * view.alpha > kPi)
             return 1e6;
-        const f64::LtcLobe lobe = lobeOf(view, {std::exp(point.x), std::exp(point.y), point.z, point.w}, integral);
+        const f64::LtcLobe lobe =
+            lobeOf(view, {std::exp(point.x), std::exp(point.y), point.z, point.w}, integral);
         double sum = 0.0;
         for (const Sample& sample : samples) {
             const double difference = lobe.amplitude * f64::ltcDensity(lobe, sample.dir) - sample.value;
@@ -117,15 +116,13 @@ glm::dvec4 minimize(const Function& function, const glm::dvec4& start, double st
     std::array<std::pair<double, glm::dvec4>, 5> simplex;
     for (int i = 0; i < 5; ++i) {
         glm::dvec4 point = start;
-        if (i > 0)
-            point[i - 1] += step;
+        if (i > 0) point[i - 1] += step;
         simplex[i] = {function(point), point};
     }
     const auto lower = [](const auto& a, const auto& b) { return a.first < b.first; };
     for (int iteration = 0; iteration < iterations; ++iteration) {
         std::stable_sort(simplex.begin(), simplex.end(), lower);
-        if (simplex[4].first - simplex[0].first < 1e-9 * (1e-6 + simplex[0].first))
-            break;
+        if (simplex[4].first - simplex[0].first < 1e-9 * (1e-6 + simplex[0].first)) break;
         glm::dvec4 center(0.0);
         for (int i = 0; i < 4; ++i)
             center += simplex[i].second * 0.25;

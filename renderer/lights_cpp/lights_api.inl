@@ -1,4 +1,4 @@
-// Declares what shaders/math and shaders/lights define, for lights_f32.h and lights_f64.h, which include it inside
+// Declares what shaders/math and shaders/lights define, for lights_f32.h and lights_f64.h, which include it in
 // their namespaces. The comments are at the definitions.
 float saturate(float x);
 float angleFromCosSin(float cosine, float sine);

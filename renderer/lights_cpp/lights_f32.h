@@ -1,5 +1,5 @@
-// shaders/math and shaders/lights as C++ in float: the numbers a shader gets. For GPU tests, flux and numerical
-// error. lightIrradiance and makeLtcLobe need a table bound by useLtcTable (ltc_table.h).
+// shaders/math and shaders/lights as C++ in float: the numbers a shader gets. For GPU tests, flux and
+// numerical error. lightIrradiance and makeLtcLobe need a table bound by useLtcTable (ltc_table.h).
 #pragma once
 
 #include "shaders/shared/gpu_light.h"

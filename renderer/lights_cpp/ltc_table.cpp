@@ -11,7 +11,8 @@
 
 namespace kilolux {
 
-static_assert(std::endian::native == std::endian::little, "the table is read and written as it lies in memory");
+static_assert(std::endian::native == std::endian::little,
+              "the table is read and written as it lies in memory");
 
 namespace {
 
@@ -37,13 +38,13 @@ glm::dvec4 LtcTable::sample(glm::dvec2 uv, LtcLayer layer) const {
         return glm::dvec4(nodes[static_cast<std::size_t>(row) * width + column]);
     };
     const double fx = x - x0;
-    return glm::mix(glm::mix(node(x0, y0), node(x1, y0), fx), glm::mix(node(x0, y1), node(x1, y1), fx), y - y0);
+    return glm::mix(glm::mix(node(x0, y0), node(x1, y0), fx), glm::mix(node(x0, y1), node(x1, y1), fx),
+                    y - y0);
 }
 
 Result<LtcTable> loadLtcTable(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
-    if (!file)
-        return Error{"'" + path.string() + "': cannot be opened"};
+    if (!file) return Error{"'" + path.string() + "': cannot be opened"};
     std::array<char, 8> magic{};
     std::array<std::uint32_t, 2> size{};
     file.read(magic.data(), magic.size());
@@ -56,7 +57,8 @@ Result<LtcTable> loadLtcTable(const std::filesystem::path& path) {
     LtcTable loaded{.width = static_cast<int>(size[0]), .height = static_cast<int>(size[1])};
     const std::size_t count = static_cast<std::size_t>(size[0]) * size[1];
     std::vector<glm::vec4> pairs(count * 2);
-    file.read(reinterpret_cast<char*>(pairs.data()), static_cast<std::streamsize>(pairs.size() * sizeof(glm::vec4)));
+    file.read(reinterpret_cast<char*>(pairs.data()),
+              static_cast<std::streamsize>(pairs.size() * sizeof(glm::vec4)));
     if (!file)
         return Error{"'" + path.string() + "': ends after " + std::to_string(file.gcount()) + " of " +
                      std::to_string(pairs.size() * sizeof(glm::vec4)) + " bytes of nodes"};
@@ -65,7 +67,8 @@ Result<LtcTable> loadLtcTable(const std::filesystem::path& path) {
         loaded.scales.push_back(pairs[2 * i + 1]);
         for (int c = 0; c < 4; ++c)
             if (!std::isfinite(pairs[2 * i][c]) || !std::isfinite(pairs[2 * i + 1][c]))
-                return Error{"'" + path.string() + "': node " + std::to_string(i) + ": expected finite numbers"};
+                return Error{"'" + path.string() + "': node " + std::to_string(i) +
+                             ": expected finite numbers"};
     }
     return loaded;
 }
@@ -81,8 +84,7 @@ Result<std::filesystem::path> saveLtcTable(const LtcTable& saved, const std::fil
         file.write(reinterpret_cast<const char*>(&saved.scales[i]), sizeof(glm::vec4));
     }
     file.flush();
-    if (!file)
-        return Error{"'" + path.string() + "': cannot be written"};
+    if (!file) return Error{"'" + path.string() + "': cannot be written"};
     return path;
 }
 

@@ -1,7 +1,7 @@
 // The table of linearly transformed cosines that content/make/ltc_fit writes and that shaders look up.
 //
-// File: the 8 bytes "KXLTC01\n", then little-endian uint32 width (nodes along noV), uint32 height (nodes along
-// roughness), then width x height x 8 floats, roughness by roughness; of each node's 8 the first 4 are
+// File: the 8 bytes "KXLTC01\n", then little-endian uint32 width (nodes along noV), uint32 height (nodes
+// along roughness), then width x height x 8 floats, roughness by roughness; of each node's 8 the first 4 are
 // ltcLookup0's, the others ltcLookup1's (shaders/math/ltc.glsl). Node coordinates: ltcInputsFromNode.
 #pragma once
 
@@ -18,7 +18,8 @@ enum class LtcLayer { Parameters, Scales };
 struct LtcTable {
     int width = 0;
     int height = 0;
-    std::vector<glm::vec4> parameters; // row-major, `width` a row: upload as RGBA32F with linear, clamped filtering
+    std::vector<glm::vec4>
+        parameters; // row-major, `width` a row: upload as RGBA32F with linear, clamped filtering
     std::vector<glm::vec4> scales;
 
     // Bilinear as a sampler does it, with clamped uv, but in double.

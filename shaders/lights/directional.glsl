@@ -1,6 +1,6 @@
-// Directional light: a disk of constant radiance at infinity around -dirWs, sizeM.x the tangent of its angular
-// radius; a delta direction below KX_DELTA_TANGENT. intensity is the illuminance of a surface that faces it. uv:
-// concentric map to equal solid angles, u along local X, v along local Y.
+// Directional light: a disk of constant radiance at infinity around -dirWs, sizeM.x the tangent of its
+// angular radius; a delta direction below KX_DELTA_TANGENT. intensity is the illuminance of a surface that
+// faces it. uv: concentric map to equal solid angles, u along local X, v along local Y.
 #ifndef KILOLUX_LIGHTS_DIRECTIONAL_GLSL
 #define KILOLUX_LIGHTS_DIRECTIONAL_GLSL
 #include "shaping.glsl"
@@ -26,14 +26,12 @@ KX_INLINE LightBounds directionalBounds(LightHot light) {
 }
 
 KX_INLINE vec3 directionalEvaluate(LightHot light, vec3 receiverWs) {
-    if (directionalIsDelta(light))
-        return light.intensity;
+    if (directionalIsDelta(light)) return light.intensity;
     return light.intensity * (KX_INV_PI / directionalSin2(light));
 }
 
 KX_INLINE EmitterOutline directionalOutline(LightHot light, vec3 receiverWs, float alpha) {
-    if (directionalIsDelta(light))
-        return pointOutline(-light.dirWs, 1.0);
+    if (directionalIsDelta(light)) return pointOutline(-light.dirWs, 1.0);
     return coneOutline(-light.dirWs, sqrt(directionalSin2(light)), alpha);
 }
 
@@ -64,8 +62,7 @@ KX_INLINE LightHit directionalIntersect(LightHot light, vec3 originWs, vec3 dirW
     vec2 aside = vec2(dot(dirWs, frame[0]), dot(dirWs, frame[1]));
     float sin2 = dot(aside, aside);
     float cosine = dot(dirWs, frame[2]);
-    if (directionalIsDelta(light) || cosine <= 0.0 || sin2 > directionalSin2(light))
-        return noLightHit();
+    if (directionalIsDelta(light) || cosine <= 0.0 || sin2 > directionalSin2(light)) return noLightHit();
     float full = directionalOneMinusCos(light);
     LightHit hit;
     hit.hit = true;

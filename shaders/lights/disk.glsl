@@ -1,5 +1,5 @@
-// Disk light: one-sided Lambert emitter of radiance intensity / area. uv: concentric map, u along local X, v along
-// local Y.
+// Disk light: one-sided Lambert emitter of radiance intensity / area. uv: concentric map, u along local X, v
+// along local Y.
 #ifndef KILOLUX_LIGHTS_DISK_GLSL
 #define KILOLUX_LIGHTS_DISK_GLSL
 #include "shaping.glsl"
@@ -24,12 +24,12 @@ KX_INLINE EmitterOutline diskOutline(LightHot light, vec3 receiverWs, float alph
     vec3 toCenter = light.positionWs - receiverWs;
     float distance2 = dot(toCenter, toCenter);
     float height = -dot(light.dirWs, toCenter);
-    if (height <= 0.0 || distance2 <= 1.0e-24)
-        return unlitOutline();
+    if (height <= 0.0 || distance2 <= 1.0e-24) return unlitOutline();
     float invDistance = inversesqrt(distance2);
     mat3 frame = lightFrame(light);
     float radius = light.sizeM.x * invDistance;
-    EmitterOutline outline = pointOutline(toCenter * invDistance, diskAreaM2(light) * height * invDistance / distance2);
+    EmitterOutline outline =
+        pointOutline(toCenter * invDistance, diskAreaM2(light) * height * invDistance / distance2);
     int vertices = radius > 0.5 ? 2 * KX_CIRCLE_VERTICES : circleVertices(radius, alpha);
     outline.centerA = outline.dirWs;
     outline.axisXA = frame[0] * radius;
@@ -54,14 +54,12 @@ KX_INLINE LightHit diskIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     float cosEmitter = -dot(light.dirWs, dirWs);
     vec3 toCenter = light.positionWs - originWs;
     float height = -dot(light.dirWs, toCenter);
-    if (cosEmitter <= 0.0 || height <= 0.0)
-        return noLightHit();
+    if (cosEmitter <= 0.0 || height <= 0.0) return noLightHit();
     float distanceM = height / cosEmitter;
     vec3 fromCenter = dirWs * distanceM - toCenter;
     mat3 frame = lightFrame(light);
     vec2 p = vec2(dot(fromCenter, frame[0]), dot(fromCenter, frame[1])) / max(light.sizeM.x, 1.0e-12);
-    if (dot(p, p) > 1.0)
-        return noLightHit();
+    if (dot(p, p) > 1.0) return noLightHit();
     return areaHit(distanceM, squareFromDisk(p), 1.0 / diskAreaM2(light), cosEmitter);
 }
 

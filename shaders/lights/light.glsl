@@ -1,7 +1,7 @@
-// One set of functions for every light type; each evaluation has a single call site, the type only chooses what
-// goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and may define KX_HAS_DIRECTIONAL,
-// KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT and KX_HAS_DISK as constant expressions that are false
-// where the scene has no such light.
+// One set of functions for every light type; each evaluation has a single call site, the type only chooses
+// what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and may define
+// KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT and KX_HAS_DISK as constant
+// expressions that are false where the scene has no such light.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
 #define KILOLUX_LIGHTS_LIGHT_GLSL
 #include "directional.glsl"
@@ -58,13 +58,12 @@ KX_INLINE LightBounds lightBounds(LightHot light) {
     return bounds;
 }
 
-// The light's shaped emission towards the receiver: radiance in nit, intensity in cd for points, illuminance in
-// lux for a delta direction. 0 behind one-sided lights, out of range and for dead and muted ones.
+// The light's shaped emission towards the receiver: radiance in nit, intensity in cd for points, illuminance
+// in lux for a delta direction. 0 behind one-sided lights, out of range and for dead and muted ones.
 KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
     uint type = lightType(light);
     vec3 emission = vec3(0.0);
-    if (!lightIsOn(light))
-        return emission;
+    if (!lightIsOn(light)) return emission;
     if (KX_HAS_SPHERE && type == LIGHT_SPHERE)
         emission = sphereEvaluate(light, receiverWs);
     else if (KX_HAS_SPOT && type == LIGHT_SPOT)
@@ -83,14 +82,10 @@ KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
 // The silhouette from a receiver; `alpha` of its surface decides how finely it is drawn.
 KX_INLINE EmitterOutline lightOutline(LightHot light, vec3 receiverWs, float alpha) {
     uint type = lightType(light);
-    if (KX_HAS_TUBE && type == LIGHT_TUBE)
-        return tubeOutline(light, receiverWs, alpha);
-    if (KX_HAS_RECT && type == LIGHT_RECT)
-        return rectOutline(light, receiverWs, alpha);
-    if (KX_HAS_DISK && type == LIGHT_DISK)
-        return diskOutline(light, receiverWs, alpha);
-    if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
-        return directionalOutline(light, receiverWs, alpha);
+    if (KX_HAS_TUBE && type == LIGHT_TUBE) return tubeOutline(light, receiverWs, alpha);
+    if (KX_HAS_RECT && type == LIGHT_RECT) return rectOutline(light, receiverWs, alpha);
+    if (KX_HAS_DISK && type == LIGHT_DISK) return diskOutline(light, receiverWs, alpha);
+    if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL) return directionalOutline(light, receiverWs, alpha);
     if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
         return sphereOutline(light, receiverWs, alpha);
     return unlitOutline();
@@ -109,23 +104,21 @@ KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, Lt
     return outlineIrradiance(lightOutline(light, point.positionWs, point.alpha), point, lobe, emission);
 }
 
-// About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the luminance of
-// baseColor * (1 - metallic), `f0` that of F0.
+// About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the
+// luminance of baseColor * (1 - metallic), `f0` that of F0.
 KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0) {
     vec3 emission = lightEvaluate(light, point.positionWs);
-    if (luminance(emission) <= 0.0)
-        return 0.0;
+    if (luminance(emission) <= 0.0) return 0.0;
     return proxyWeight(lightProxy(light, point.positionWs), point, emission, diffuseAlbedo, f0);
 }
 
-// A point on the light for a uv in the unit square: even in area over what faces the receiver, continuous, fixed
-// to the light's frame up to the mirroring that each type states. Invalid for dead and muted lights, from behind
-// and from inside.
+// A point on the light for a uv in the unit square: even in area over what faces the receiver, continuous,
+// fixed to the light's frame up to the mirroring that each type states. Invalid for dead and muted lights,
+// from behind and from inside.
 KX_INLINE LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv) {
     uint type = lightType(light);
     LightSample s = invalidSample(uv);
-    if (!lightIsOn(light))
-        return s;
+    if (!lightIsOn(light)) return s;
     if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
         s = sphereSample(light, receiverWs, uv);
     else if (KX_HAS_TUBE && type == LIGHT_TUBE)
@@ -139,12 +132,12 @@ KX_INLINE LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv) {
     return s;
 }
 
-// Where a ray with unit direction meets the emitting side of the light. Points and delta directions are never met.
+// Where a ray with unit direction meets the emitting side of the light. Points and delta directions are never
+// met.
 KX_INLINE LightHit lightIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     uint type = lightType(light);
     LightHit hit = noLightHit();
-    if (!lightIsOn(light))
-        return hit;
+    if (!lightIsOn(light)) return hit;
     if ((KX_HAS_SPHERE && type == LIGHT_SPHERE) || (KX_HAS_SPOT && type == LIGHT_SPOT))
         hit = sphereIntersect(light, originWs, dirWs);
     else if (KX_HAS_TUBE && type == LIGHT_TUBE)

@@ -1,5 +1,5 @@
-// Rectangle light: one-sided Lambert emitter of radiance intensity / area. uv: u along local X, v along local Y,
-// both from the negative side.
+// Rectangle light: one-sided Lambert emitter of radiance intensity / area. uv: u along local X, v along local
+// Y, both from the negative side.
 #ifndef KILOLUX_LIGHTS_RECT_GLSL
 #define KILOLUX_LIGHTS_RECT_GLSL
 #include "shaping.glsl"
@@ -25,11 +25,11 @@ KX_INLINE EmitterOutline rectOutline(LightHot light, vec3 receiverWs, float alph
     vec3 toCenter = light.positionWs - receiverWs;
     float distance2 = dot(toCenter, toCenter);
     float height = -dot(light.dirWs, toCenter);
-    if (height <= 0.0 || distance2 <= 1.0e-24)
-        return unlitOutline();
+    if (height <= 0.0 || distance2 <= 1.0e-24) return unlitOutline();
     float invDistance = inversesqrt(distance2);
     mat3 frame = lightFrame(light);
-    EmitterOutline outline = pointOutline(toCenter * invDistance, rectAreaM2(light) * height * invDistance / distance2);
+    EmitterOutline outline =
+        pointOutline(toCenter * invDistance, rectAreaM2(light) * height * invDistance / distance2);
     outline.centerA = outline.dirWs;
     outline.axisXA = frame[0] * (1.41421356237309504880 * light.sizeM.x * invDistance);
     outline.axisYA = frame[1] * (1.41421356237309504880 * light.sizeM.y * invDistance);
@@ -52,14 +52,13 @@ KX_INLINE LightHit rectIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     float cosEmitter = -dot(light.dirWs, dirWs);
     vec3 toCenter = light.positionWs - originWs;
     float height = -dot(light.dirWs, toCenter);
-    if (cosEmitter <= 0.0 || height <= 0.0)
-        return noLightHit();
+    if (cosEmitter <= 0.0 || height <= 0.0) return noLightHit();
     float distanceM = height / cosEmitter;
     vec3 fromCenter = dirWs * distanceM - toCenter;
     mat3 frame = lightFrame(light);
-    vec2 p = vec2(dot(fromCenter, frame[0]) / max(light.sizeM.x, 1.0e-12), dot(fromCenter, frame[1]) / max(light.sizeM.y, 1.0e-12));
-    if (max(abs(p.x), abs(p.y)) > 1.0)
-        return noLightHit();
+    vec2 p = vec2(dot(fromCenter, frame[0]) / max(light.sizeM.x, 1.0e-12),
+                  dot(fromCenter, frame[1]) / max(light.sizeM.y, 1.0e-12));
+    if (max(abs(p.x), abs(p.y)) > 1.0) return noLightHit();
     return areaHit(distanceM, p * 0.5 + vec2(0.5), 1.0 / rectAreaM2(light), cosEmitter);
 }
 

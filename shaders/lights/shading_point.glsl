@@ -1,4 +1,5 @@
-// Makes the inputs of the light functions. Needs ltcLookup0 and ltcLookup1 (see math/ltc.glsl) declared before.
+// Makes the inputs of the light functions. Needs ltcLookup0 and ltcLookup1 (see math/ltc.glsl) declared
+// before.
 #ifndef KILOLUX_LIGHTS_SHADING_POINT_GLSL
 #define KILOLUX_LIGHTS_SHADING_POINT_GLSL
 #include "../math/ltc.glsl"

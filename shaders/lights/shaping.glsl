@@ -1,6 +1,6 @@
-// What all light types share: type and flags, the light's frame, range window and cone. Shaping is far-field: it
-// depends on the receiver and on the light's centre only, so it multiplies the whole light and leaves analytic
-// irradiance exact.
+// What all light types share: type and flags, the light's frame, range window and cone. Shaping is far-field:
+// it depends on the receiver and on the light's centre only, so it multiplies the whole light and leaves
+// analytic irradiance exact.
 #ifndef KILOLUX_LIGHTS_SHAPING_GLSL
 #define KILOLUX_LIGHTS_SHAPING_GLSL
 #include "../math/approx.glsl"
@@ -14,8 +14,9 @@
 const float KX_POINT_RADIUS_M = 1.0e-5; // a smaller sphere is a point
 const float KX_DELTA_TANGENT = 1.0e-5;  // a smaller directional disk is a delta
 const float KX_MIN_AREA_M2 = 1.0e-12;
-// Vertices of the polygon that stands for a circle, and sectors in which the fit is corrected. Measured over random
-// lights (tests/unit/lights): with 4 sectors the 95th percentile of the GGX error is 3 to 6 %, with 8 it is 1.5 to 4 %.
+// Vertices of the polygon that stands for a circle, and sectors in which the fit is corrected. Measured over
+// random lights (tests/unit/lights): with 4 sectors the 95th percentile of the GGX error is 3 to 6 %, with 8
+// it is 1.5 to 4 %.
 const int KX_CIRCLE_VERTICES = 16;
 const int KX_CIRCLE_SECTORS = 8;
 
@@ -101,12 +102,14 @@ KX_INLINE EmitterOutline coneOutline(vec3 dirWs, float sinRadius, float alpha) {
     outline.dirWs = dirWs;
     outline.angularRadius = sinRadius;
     outline.solidAngle = KX_PI * sinRadius * sinRadius;
-    // One edge of the polygon at its corners (R, 0, c) and (R cos, R sin, c): its plane's normal times its angle.
+    // One edge of the polygon at its corners (R, 0, c) and (R cos, R sin, c): its plane's normal times its
+    // angle.
     float corner2 = square(sinRadius * outline.bulge.x);
     float up = corner2 * sin(step_);
     float sideways = sqrt(2.0 * corner2 * (1.0 - cos(step_))) * cosRadius;
     float sine = sqrt(up * up + sideways * sideways);
-    float edge = angleFromCosSin(corner2 * cos(step_) + cosRadius * cosRadius, sine) * up / max(sine, 1.0e-30);
+    float edge =
+        angleFromCosSin(corner2 * cos(step_) + cosRadius * cosRadius, sine) * up / max(sine, 1.0e-30);
     outline.correction = outline.solidAngle / max(0.5 * float(vertices) * edge, 1.0e-30);
     return outline;
 }
@@ -126,11 +129,11 @@ KX_INLINE LightSample invalidSample(vec2 uv) {
 }
 
 // A sample at a point with an emitter normal; pdfArea 0 makes it a delta light's.
-KX_INLINE LightSample areaSample(vec3 toPoint, vec3 receiverWs, vec3 emitterNormalWs, vec2 uv, float pdfArea) {
+KX_INLINE LightSample areaSample(vec3 toPoint, vec3 receiverWs, vec3 emitterNormalWs, vec2 uv,
+                                 float pdfArea) {
     LightSample s = invalidSample(uv);
     float distance2 = dot(toPoint, toPoint);
-    if (distance2 <= 1.0e-30)
-        return s;
+    if (distance2 <= 1.0e-30) return s;
     s.distanceM = sqrt(distance2);
     s.dirWs = toPoint / s.distanceM;
     s.positionWs = receiverWs + toPoint;

@@ -1,7 +1,8 @@
-// Tube light: a capsule along local X (radius sizeM.x, half length sizeM.y between the centres of its ends), a
-// Lambert emitter of radiance intensity / (4 r h + pi r^2), which is what its side shows. Seen from outside its
-// silhouette is two arcs and the two edges where planes through the receiver touch the cylinder. uv: u along the
-// axis from end to end (a capsule has the same area per axial length everywhere), v turns about it from local Y.
+// Tube light: a capsule along local X (radius sizeM.x, half length sizeM.y between the centres of its ends),
+// a Lambert emitter of radiance intensity / (4 r h + pi r^2), which is what its side shows. Seen from outside
+// its silhouette is two arcs and the two edges where planes through the receiver touch the cylinder. uv: u
+// along the axis from end to end (a capsule has the same area per axial length everywhere), v turns about it
+// from local Y.
 #ifndef KILOLUX_LIGHTS_TUBE_GLSL
 #define KILOLUX_LIGHTS_TUBE_GLSL
 #include "shaping.glsl"
@@ -72,8 +73,7 @@ KX_INLINE EmitterOutline tubeOutline(LightHot light, vec3 receiverWs, float alph
     float nearest = clamp(-along, -light.sizeM.y, light.sizeM.y);
     vec3 toAxis = toCenter + axis * nearest;
     float nearest2 = dot(toAxis, toAxis);
-    if (nearest2 <= radius * radius || distanceM <= 1.0e-12)
-        return unlitOutline();
+    if (nearest2 <= radius * radius || distanceM <= 1.0e-12) return unlitOutline();
     vec3 foot = toCenter - axis * along;
     float fromAxis = length(foot);
     EmitterOutline outline;
@@ -108,8 +108,8 @@ KX_INLINE EmitterOutline tubeOutline(LightHot light, vec3 receiverWs, float alph
     return outline;
 }
 
-// Points that face away are mirrored through the centre; one of the two faces the receiver, or neither does and
-// the sample is invalid. Never both, so the density over what is seen is even.
+// Points that face away are mirrored through the centre; one of the two faces the receiver, or neither does
+// and the sample is invalid. Never both, so the density over what is seen is even.
 KX_INLINE LightSample tubeSample(LightHot light, vec3 receiverWs, vec2 uv) {
     mat3 frame = lightFrame(light);
     float radius = tubeRadiusM(light);
@@ -136,8 +136,7 @@ KX_INLINE LightHit tubeIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     vec3 from = transpose(frame) * (originWs - light.positionWs); // the axis is x
     vec3 dir = transpose(frame) * dirWs;
     vec3 outside = from - vec3(clamp(from.x, -light.sizeM.y, light.sizeM.y), 0.0, 0.0);
-    if (dot(outside, outside) <= radius * radius)
-        return noLightHit();
+    if (dot(outside, outside) <= radius * radius) return noLightHit();
     // The cylinder first; beyond its ends the sphere of that end.
     float across2 = dir.y * dir.y + dir.z * dir.z;
     float end = dir.x < 0.0 ? light.sizeM.y : -light.sizeM.y;
@@ -145,8 +144,7 @@ KX_INLINE LightHit tubeIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
         float middle = -(from.y * dir.y + from.z * dir.z) / across2;
         float asideX = from.y * dir.z - from.z * dir.y;
         float inside2 = radius * radius * across2 - asideX * asideX;
-        if (inside2 < 0.0)
-            return noLightHit();
+        if (inside2 < 0.0) return noLightHit();
         float x = from.x + dir.x * (middle - sqrt(inside2) / across2);
         end = clamp(x, -light.sizeM.y, light.sizeM.y);
     }
@@ -155,11 +153,9 @@ KX_INLINE LightHit tubeIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     float along = dot(toEnd, dir);
     vec3 aside = toEnd - dir * along;
     float inside2 = radius * radius - dot(aside, aside);
-    if (inside2 < 0.0)
-        return noLightHit();
+    if (inside2 < 0.0) return noLightHit();
     float distanceM = along - sqrt(inside2);
-    if (distanceM <= 0.0)
-        return noLightHit();
+    if (distanceM <= 0.0) return noLightHit();
     vec3 normal = (dir * distanceM - toEnd) / radius;
     float x = clamp(from.x + dir.x * distanceM, -light.sizeM.y - radius, light.sizeM.y + radius);
     vec2 uv = vec2(saturate(0.5 + 0.5 * x / (light.sizeM.y + radius)), turnFromPlane(normal.y, normal.z));

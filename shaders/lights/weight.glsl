@@ -1,5 +1,5 @@
-// The cheap weight by which candidate lights are chosen: about the luminance of unshadowed BRDF x light, without
-// tables and edges. Never 0 for a light that contributes.
+// The cheap weight by which candidate lights are chosen: about the luminance of unshadowed BRDF x light,
+// without tables and edges. Never 0 for a light that contributes.
 #ifndef KILOLUX_LIGHTS_WEIGHT_GLSL
 #define KILOLUX_LIGHTS_WEIGHT_GLSL
 #include "irradiance.glsl"
@@ -64,8 +64,7 @@ KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
         return roundProxy(-light.dirWs, delta ? 1.0 : KX_PI * sin2, delta ? 0.0 : sqrt(sin2));
     }
     vec3 toCenter = light.positionWs - receiverWs;
-    if (type == LIGHT_TUBE)
-        return tubeProxy(light, toCenter);
+    if (type == LIGHT_TUBE) return tubeProxy(light, toCenter);
     float distance2 = max(dot(toCenter, toCenter), 1.0e-12);
     float invDistance = inversesqrt(distance2);
     vec3 dir = toCenter * invDistance;
@@ -92,10 +91,10 @@ KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
 }
 
 // `emission` is lightEvaluate() at the point; `diffuseAlbedo` and `f0` are the surface's luminances.
-KX_INLINE float proxyWeight(LightProxy proxy, ShadingPoint point, vec3 emission, float diffuseAlbedo, float f0) {
+KX_INLINE float proxyWeight(LightProxy proxy, ShadingPoint point, vec3 emission, float diffuseAlbedo,
+                            float f0) {
     float cosine = dot(point.normalWs, proxy.dirWs);
-    if (dot(point.normalWs, proxy.boundDirWs) + proxy.boundSin <= 0.0)
-        return 0.0;
+    if (dot(point.normalWs, proxy.boundDirWs) + proxy.boundSin <= 0.0) return 0.0;
     vec2 cut = horizonCut(cosine, proxy.sinRadius);
     float visible = proxy.solidAngle * max(cut.x, 1.0e-4);
     float diffuse = max(cut.y, 1.0e-5);

@@ -14,13 +14,12 @@ KX_INLINE mat3 basisFromNormal(vec3 normal) {
     return mat3(tangent, bitangent, normal);
 }
 
-// Columns: the part of `tangent` square to the unit normal, the bitangent, the normal; right-handed. A tangent
-// along the normal gives basisFromNormal.
+// Columns: the part of `tangent` square to the unit normal, the bitangent, the normal; right-handed. A
+// tangent along the normal gives basisFromNormal.
 KX_INLINE mat3 basisFromNormalTangent(vec3 normal, vec3 tangent) {
     vec3 flat_ = tangent - normal * dot(normal, tangent);
     float length2 = dot(flat_, flat_);
-    if (length2 < 1.0e-10)
-        return basisFromNormal(normal);
+    if (length2 < 1.0e-10) return basisFromNormal(normal);
     vec3 x = flat_ * inversesqrt(length2);
     return mat3(x, cross(normal, x), normal);
 }

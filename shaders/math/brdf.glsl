@@ -34,8 +34,8 @@ KX_INLINE float schlickWeight(float loH) {
     return m * m * m * m * m;
 }
 
-// x: D * V * noL, y: Schlick's weight, for unit normal, view and light directions. 0 below the horizon. noV is
-// asked for because callers clamp it.
+// x: D * V * noL, y: Schlick's weight, for unit normal, view and light directions. 0 below the horizon. noV
+// is asked for because callers clamp it.
 KX_INLINE vec2 ggxTimesCosine(vec3 normal, vec3 viewDir, float noV, vec3 lightDir, float alpha) {
     float noL = dot(normal, lightDir);
     vec3 halfSum = viewDir + lightDir;

@@ -1,7 +1,7 @@
 // What shaders/math and shaders/lights need to compile as GLSL, as C++ in float and as C++ in double. In C++
-// the includer (renderer/lights_cpp) has opened a namespace that brings GLM's types and functions under GLSL's
-// names. The subset: functions and structs only, no swizzles (write vec3(v4.x, ...) or vec3(v4)), no implicit
-// conversions, literals without suffix, OUT(T) and INOUT(T) for reference parameters.
+// the includer (renderer/lights_cpp) has opened a namespace that brings GLM's types and functions under
+// GLSL's names. The subset: functions and structs only, no swizzles (write vec3(v4.x, ...) or vec3(v4)), no
+// implicit conversions, literals without suffix, OUT(T) and INOUT(T) for reference parameters.
 #ifndef KILOLUX_MATH_PRELUDE_GLSL
 #define KILOLUX_MATH_PRELUDE_GLSL
 

@@ -12,8 +12,7 @@ KX_INLINE vec2 diskFromSquare(vec2 uv) {
         float phi = (KX_PI / 4.0) * (y / x);
         return vec2(x * cos(phi), x * sin(phi));
     }
-    if (y == 0.0)
-        return vec2(0.0);
+    if (y == 0.0) return vec2(0.0);
     float phi = (KX_PI / 4.0) * (x / y);
     return vec2(y * sin(phi), y * cos(phi));
 }
@@ -41,8 +40,7 @@ KX_INLINE vec3 sphereFromSquare(vec2 uv) {
 
 // The turn in [0, 1) of a plane vector from +x; (0, 0) gives 0.
 KX_INLINE float turnFromPlane(float x, float y) {
-    if (x == 0.0 && y == 0.0)
-        return 0.0;
+    if (x == 0.0 && y == 0.0) return 0.0;
     float turn = atan(y, x) * (1.0 / KX_TWO_PI);
     turn = turn < 0.0 ? turn + 1.0 : turn;
     return turn >= 1.0 ? 0.0 : turn;

@@ -32,26 +32,29 @@ TEST_F(ClosedForm, PointFollowsTheInverseSquareLaw) {
     for (const double distance : {0.01, 1.0, 7.0, 1000.0}) {
         const dvec3 dir = glm::normalize(dvec3(0.3, -0.2, 0.8));
         const Emitter point = emitter(shared::LIGHT_SPHERE, dir * distance, {0, 0, 1}, {1, 0, 0}, {0, 0});
-        EXPECT_NEAR(lightAt(point, 100.0, {0, 0, 1}).diffuse * distance * distance / (100.0 * dir.z), 1.0, 1e-5);
-        const Emitter ball = emitter(shared::LIGHT_SPHERE, dir * distance, {0, 0, 1}, {1, 0, 0}, {0.4 * distance, 0});
-        EXPECT_NEAR(lightAt(ball, 100.0, {0, 0, 1}).diffuse * distance * distance / (100.0 * dir.z), 1.0, 1e-5);
+        EXPECT_NEAR(lightAt(point, 100.0, {0, 0, 1}).diffuse * distance * distance / (100.0 * dir.z), 1.0,
+                    1e-5);
+        const Emitter ball =
+            emitter(shared::LIGHT_SPHERE, dir * distance, {0, 0, 1}, {1, 0, 0}, {0.4 * distance, 0});
+        EXPECT_NEAR(lightAt(ball, 100.0, {0, 0, 1}).diffuse * distance * distance / (100.0 * dir.z), 1.0,
+                    1e-5);
     }
 }
 
 TEST_F(ClosedForm, DirectionalGivesItsIlluminanceTimesTheCosine) {
     const dvec3 z = glm::normalize(dvec3(0.5, 0.1, 0.6));
     for (const double tangent : {0.0, 0.004654, 0.3}) {
-        const Emitter sun = emitter(shared::LIGHT_DIRECTIONAL, {0, 0, 0}, z, glm::normalize(glm::cross(z, dvec3(0, 1, 0))),
-                                    {tangent, 0});
+        const Emitter sun = emitter(shared::LIGHT_DIRECTIONAL, {0, 0, 0}, z,
+                                    glm::normalize(glm::cross(z, dvec3(0, 1, 0))), {tangent, 0});
         EXPECT_NEAR(lightAt(sun, 80000.0, {0, 0, 1}).diffuse / (80000.0 * z.z), 1.0, 1e-5) << tangent;
     }
 }
 
-// Snyder, "Area Light Sources for Real-Time Graphics", 1996, in the form of Lagarde and de Rousiers 2014, listing 7.
+// Snyder, "Area Light Sources for Real-Time Graphics", 1996, in the form of Lagarde and de Rousiers 2014,
+// listing 7.
 double sphereOverPlane(double sine, double cosine) {
     const double h2 = 1.0 / (sine * sine);
-    if (cosine >= sine * (1.0 - 1e-9))
-        return kPi * cosine / h2;
+    if (cosine >= sine * (1.0 - 1e-9)) return kPi * cosine / h2;
     const double x = std::sqrt(h2 - 1.0);
     const double sinNormal = std::sqrt(1.0 - cosine * cosine);
     const double y = -x * cosine / sinNormal;
@@ -64,7 +67,8 @@ TEST_F(ClosedForm, SphereCutByTheHorizon) {
         for (const double part : {-0.9, -0.5, 0.0, 0.3, 0.8, 1.0, 2.0}) {
             const double cosine = std::min(part * sine, 1.0);
             const dvec3 dir(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
-            const Emitter ball = emitter(shared::LIGHT_SPHERE, dir * 2.0, {0, 0, 1}, {1, 0, 0}, {2.0 * sine, 0});
+            const Emitter ball =
+                emitter(shared::LIGHT_SPHERE, dir * 2.0, {0, 0, 1}, {1, 0, 0}, {2.0 * sine, 0});
             const double radiance = 1.0 / (kPi * 4.0 * sine * sine);
             const double expected = sphereOverPlane(sine, cosine) * radiance;
             const double full = kPi * sine * sine * radiance * sine;
@@ -73,7 +77,8 @@ TEST_F(ClosedForm, SphereCutByTheHorizon) {
         }
 }
 
-// Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3: a quarter of a rectangle overhead.
+// Howell, "A Catalog of Radiation Heat Transfer Configuration Factors", B-3: a quarter of a rectangle
+// overhead.
 double quarterFactor(double a, double b) {
     const double sa = std::sqrt(1.0 + a * a);
     const double sb = std::sqrt(1.0 + b * b);
@@ -103,7 +108,8 @@ TEST_F(ClosedForm, RectangleOnAWallSeenFromTheFloor) {
     const double root = std::sqrt(x * x + y * y);
     const double alpha = 1.0 / std::sqrt(1.0 + y * y);
     // Integral of z over distance^4, in closed form, with the corner at (c, 0, 0).
-    const double factor = (std::atan(x / y) - y / std::sqrt(1.0 + y * y) * std::atan(x * alpha)) / (2.0 * kPi);
+    const double factor =
+        (std::atan(x / y) - y / std::sqrt(1.0 + y * y) * std::atan(x * alpha)) / (2.0 * kPi);
     ASSERT_GT(root, 0.0);
     EXPECT_NEAR(lightAt(rect, 1.0, {0, 0, 1}).diffuse / (kPi / (a * b) * factor), 1.0, 1e-4);
 }
@@ -121,7 +127,8 @@ TEST_F(ClosedForm, DiskOverheadAndAside) {
             const double r = radius / aside;
             const double z = 1.0 + h * h + r * r;
             const double factor = 0.5 * (1.0 - (z - 2.0 * r * r) / std::sqrt(z * z - 4.0 * r * r));
-            const Emitter off = emitter(shared::LIGHT_DISK, {aside, 0, height}, {0, 0, 1}, {1, 0, 0}, {radius, 0});
+            const Emitter off =
+                emitter(shared::LIGHT_DISK, {aside, 0, height}, {0, 0, 1}, {1, 0, 0}, {radius, 0});
             EXPECT_NEAR(lightAt(off, 1.0, {0, 0, 1}).diffuse / (kPi * radiance * factor), 1.0, 3e-3)
                 << height << ", " << aside;
         }
@@ -132,7 +139,8 @@ TEST_F(ClosedForm, ThinTubeOverhead) {
     const double radius = 1e-3;
     const double halfLength = 0.6;
     for (const double height : {0.2, 1.0, 10.0}) {
-        const Emitter tube = emitter(shared::LIGHT_TUBE, {0, 0, height}, {0, 0, 1}, {1, 0, 0}, {radius, halfLength});
+        const Emitter tube =
+            emitter(shared::LIGHT_TUBE, {0, 0, height}, {0, 0, 1}, {1, 0, 0}, {radius, halfLength});
         const double radiance = 1.0 / (4.0 * radius * halfLength + kPi * radius * radius);
         const double angle = std::atan(halfLength / height);
         const double line = 2.0 * radiance * radius / height * (angle + std::sin(angle) * std::cos(angle));
@@ -158,12 +166,13 @@ TEST_F(ClosedForm, LightThatFillsTheSkyGivesTheAlbedo) {
 
 // What a light sends through a sphere of 60 m around it is its flux.
 TEST_F(ClosedForm, FluxIsWhatLeavesTheLight) {
-    for (const shared::uint type : {shared::LIGHT_SPHERE, shared::LIGHT_SPOT, shared::LIGHT_TUBE, shared::LIGHT_RECT,
-                                    shared::LIGHT_DISK}) {
+    for (const shared::uint type : {shared::LIGHT_SPHERE, shared::LIGHT_SPOT, shared::LIGHT_TUBE,
+                                    shared::LIGHT_RECT, shared::LIGHT_DISK}) {
         const dvec3 z = glm::normalize(dvec3(0.3, -0.5, 0.7));
         const dvec3 x = glm::normalize(glm::cross(z, dvec3(0, 1, 0)));
         const dvec2 size = type == shared::LIGHT_TUBE ? dvec2(0.1, 0.4) : dvec2(0.3, 0.2);
-        f64::LightHot light = f64::fromF32(hotRecord(emitter(type, {0, 0, 0}, z, x, size), {30.0f, 50.0f, 20.0f}));
+        f64::LightHot light =
+            f64::fromF32(hotRecord(emitter(type, {0, 0, 0}, z, x, size), {30.0f, 50.0f, 20.0f}));
         const double scale = 1.0 / (std::cos(0.3) - std::cos(0.7));
         light.shaping = {scale, -std::cos(0.7) * scale};
         double flux = 0.0;
@@ -179,7 +188,8 @@ TEST_F(ClosedForm, FluxIsWhatLeavesTheLight) {
 }
 
 TEST_F(ClosedForm, RangeWindowAndBounds) {
-    f64::LightHot light = f64::fromF32(hotRecord(emitter(shared::LIGHT_SPHERE, {1, 2, 3}, {0, 0, 1}, {1, 0, 0}, {0, 0}), glm::vec3(1.0f)));
+    f64::LightHot light = f64::fromF32(
+        hotRecord(emitter(shared::LIGHT_SPHERE, {1, 2, 3}, {0, 0, 1}, {1, 0, 0}, {0, 0}), glm::vec3(1.0f)));
     light.invRange = 0.25;
     EXPECT_NEAR(f64::lightEvaluate(light, {1, 2, 5}).x, 1.0 - std::pow(0.5, 4.0), 1e-9);
     EXPECT_EQ(f64::lightEvaluate(light, {1, 2, 7.001}).x, 0.0);
@@ -201,13 +211,13 @@ TEST_F(ClosedForm, BoundsHoldEverythingThatIsLit) {
         light.invRange = random.uniform(0.1, 1.0);
         const double scale = 1.0 / (1.0 - std::cos(0.9));
         light.shaping = {scale, -std::cos(0.9) * scale};
-        if (f64::lightEvaluate(light, dvec3(0.0)).x <= 0.0)
-            continue;
+        if (f64::lightEvaluate(light, dvec3(0.0)).x <= 0.0) continue;
         ++lit;
         const f64::LightBounds bounds = f64::lightBounds(light);
         const dvec3 from = -bounds.centerWs;
         EXPECT_LE(glm::length(from), bounds.radiusM * 1.000001) << kTypeNames[type];
-        EXPECT_GE(glm::dot(from, bounds.axisWs), (bounds.cosHalfAngle - 1e-6) * glm::length(from)) << kTypeNames[type];
+        EXPECT_GE(glm::dot(from, bounds.axisWs), (bounds.cosHalfAngle - 1e-6) * glm::length(from))
+            << kTypeNames[type];
     }
     EXPECT_GT(lit, 3000);
 }

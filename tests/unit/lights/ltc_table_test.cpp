@@ -25,8 +25,10 @@ TEST(LtcTable, CoarseRefitGivesTheCommittedNodes) {
             EXPECT_NEAR(scales.y, kept.y, 1e-5f);
             EXPECT_NEAR(scales.z, kept.z, 1e-5f);
             EXPECT_NEAR(scales.x, kept.x, 0.02f) << row << ", " << column;
-            EXPECT_LT(scales.w, kept.w * 1.05f + 1e-5f) << "the refit found a worse fit at " << row << ", " << column;
-            EXPECT_LT(kept.w, scales.w * 1.05f + 1e-5f) << "the committed fit is worse at " << row << ", " << column;
+            EXPECT_LT(scales.w, kept.w * 1.05f + 1e-5f)
+                << "the refit found a worse fit at " << row << ", " << column;
+            EXPECT_LT(kept.w, scales.w * 1.05f + 1e-5f)
+                << "the committed fit is worse at " << row << ", " << column;
         }
 }
 
@@ -41,11 +43,13 @@ TEST(LtcTable, AlbedoIsTheIntegralOfTheBrdf) {
             dvec2 sum(0.0);
             const int count = 1000;
             for (int i = 0; i < count * count; ++i) {
-                const dvec3 dir = f64::cosineHemisphereFromSquare({(i % count + 0.5) / count, (i / count + 0.5) / count});
+                const dvec3 dir =
+                    f64::cosineHemisphereFromSquare({(i % count + 0.5) / count, (i / count + 0.5) / count});
                 const dvec2 ggx = referenceGgx(surface, dir);
                 sum += dvec2(1.0 - ggx.y, ggx.y) * (ggx.x * kPi / dir.z / (count * count));
             }
-            const f64::ShadingPoint point = f64::makeShadingPoint({0, 0, 0}, {0, 0, 1}, surface.view, roughness);
+            const f64::ShadingPoint point =
+                f64::makeShadingPoint({0, 0, 0}, {0, 0, 1}, surface.view, roughness);
             const f64::LtcLobe lobe = f64::makeLtcLobe(point);
             EXPECT_NEAR(lobe.albedo.x, sum.x, 2e-3) << roughness << ", " << noV;
             EXPECT_NEAR(lobe.albedo.y, sum.y, 2e-3) << roughness << ", " << noV;
@@ -56,19 +60,22 @@ TEST(LtcTable, DensityIntegratesToOne) {
     bindCommittedTable();
     for (const double roughness : {0.1, 0.5, 1.0})
         for (const double noV : {0.1, 0.7}) {
-            const f64::ShadingPoint point =
-                f64::makeShadingPoint({0, 0, 0}, {0, 0, 1}, {std::sqrt(1.0 - noV * noV), 0.0, noV}, roughness);
+            const f64::ShadingPoint point = f64::makeShadingPoint(
+                {0, 0, 0}, {0, 0, 1}, {std::sqrt(1.0 - noV * noV), 0.0, noV}, roughness);
             const f64::LtcLobe lobe = f64::makeLtcLobe(point);
             double sum = 0.0;
             double above = 0.0;
             const int count = 400;
             for (int i = 0; i < count * count; ++i) {
                 // In LTC space, where the density is the cosine: each sample must weigh the same.
-                const dvec3 cosine = f64::cosineHemisphereFromSquare({(i % count + 0.5) / count, (i / count + 0.5) / count});
+                const dvec3 cosine =
+                    f64::cosineHemisphereFromSquare({(i % count + 0.5) / count, (i / count + 0.5) / count});
                 const dvec3 image = lobe.worldFromLtc * cosine;
                 const dvec3 dir = glm::normalize(image);
-                const double jacobian = std::abs(glm::determinant(lobe.worldFromLtc)) / std::pow(glm::length(image), 3.0);
-                const double weight = f64::ltcDensity(lobe, dir) * jacobian / (cosine.z / kPi) / (count * count);
+                const double jacobian =
+                    std::abs(glm::determinant(lobe.worldFromLtc)) / std::pow(glm::length(image), 3.0);
+                const double weight =
+                    f64::ltcDensity(lobe, dir) * jacobian / (cosine.z / kPi) / (count * count);
                 sum += weight;
                 above += dir.z > 0.0 ? weight : 0.0;
             }
@@ -87,7 +94,10 @@ TEST(LtcTable, BadFilesAreRefusedByName) {
     EXPECT_NE(loadLtcTable(path).error().find("100 of"), std::string::npos);
     write(std::string("KXLTC01\n\xff\xff\xff\xff\x40\0\0\0", 16));
     EXPECT_NE(loadLtcTable(path).error().find("1024"), std::string::npos);
-    LtcTable table{.width = 2, .height = 2, .parameters = std::vector<glm::vec4>(4), .scales = std::vector<glm::vec4>(4, glm::vec4(2.0f))};
+    LtcTable table{.width = 2,
+                   .height = 2,
+                   .parameters = std::vector<glm::vec4>(4),
+                   .scales = std::vector<glm::vec4>(4, glm::vec4(2.0f))};
     ASSERT_TRUE(saveLtcTable(table, path));
     const auto loaded = loadLtcTable(path);
     ASSERT_TRUE(loaded);

@@ -27,7 +27,8 @@ Patch fromPoint(const dvec3& toPoint, const dvec3& normal, double area) {
 }
 
 Patch conePatch(const dvec3& axis, double oneMinusCos, double u, double v) {
-    const dvec3 side = glm::normalize(std::abs(axis.x) > 0.5 ? glm::cross(axis, dvec3(0, 1, 0)) : glm::cross(axis, dvec3(1, 0, 0)));
+    const dvec3 side = glm::normalize(std::abs(axis.x) > 0.5 ? glm::cross(axis, dvec3(0, 1, 0))
+                                                             : glm::cross(axis, dvec3(1, 0, 0)));
     const dvec3 other = glm::cross(axis, side);
     const double m = u * u * oneMinusCos; // u^2 keeps it smooth at the axis
     const double sine = std::sqrt(m * (2.0 - m));
@@ -36,13 +37,15 @@ Patch conePatch(const dvec3& axis, double oneMinusCos, double u, double v) {
             2.0 * kPi * oneMinusCos * 2.0 * u};
 }
 
-// A ring of the tube, v turning over what the receiver sees of it: normals x * along + around * ring about a point
-// on the axis, `areaPerTurn` for the whole ring.
-Patch ringPatch(const Emitter& e, const dvec3& toAxisPoint, double along, double ring, double areaPerTurn, double v) {
+// A ring of the tube, v turning over what the receiver sees of it: normals x * along + around * ring about a
+// point on the axis, `areaPerTurn` for the whole ring.
+Patch ringPatch(const Emitter& e, const dvec3& toAxisPoint, double along, double ring, double areaPerTurn,
+                double v) {
     const double y = -glm::dot(toAxisPoint, e.y);
     const double z = -glm::dot(toAxisPoint, e.z);
     const double side = std::max(std::hypot(y, z) * ring, 1e-9);
-    const double limit = (e.size.x + along * glm::dot(toAxisPoint, e.x)) / side; // seen where cos(turn) is above
+    const double limit =
+        (e.size.x + along * glm::dot(toAxisPoint, e.x)) / side; // seen where cos(turn) is above
     const double halfTurn = std::acos(std::clamp(limit, -1.0, 1.0));
     const double phi = std::atan2(z, y) + (2.0 * v - 1.0) * halfTurn;
     const dvec3 normal = e.x * along + (e.y * std::cos(phi) + e.z * std::sin(phi)) * ring;
@@ -67,8 +70,8 @@ Patch patchAt(const Emitter& e, const dvec3& toCenter, double u, double v) {
     const double distance = glm::length(toCenter);
     switch (e.type) {
     case shared::LIGHT_RECT:
-        return fromPoint(toCenter + e.x * ((2.0 * u - 1.0) * e.size.x) + e.y * ((2.0 * v - 1.0) * e.size.y), -e.z,
-                         4.0 * e.size.x * e.size.y);
+        return fromPoint(toCenter + e.x * ((2.0 * u - 1.0) * e.size.x) + e.y * ((2.0 * v - 1.0) * e.size.y),
+                         -e.z, 4.0 * e.size.x * e.size.y);
     case shared::LIGHT_DISK: {
         const dvec3 offset = e.x * std::cos(2.0 * kPi * v) + e.y * std::sin(2.0 * kPi * v);
         return fromPoint(toCenter + offset * (u * e.size.x), -e.z, 2.0 * kPi * u * e.size.x * e.size.x);
@@ -112,7 +115,10 @@ struct Integrator {
         const dvec3 middle = patchAt(emitter, toCenter, u0 + du * 0.5, v0 + dv * 0.5).dir;
         double size = 0.0;
         for (int corner = 0; corner < 4; ++corner)
-            size = std::max(size, glm::length(patchAt(emitter, toCenter, u0 + du * (corner & 1), v0 + dv * (corner >> 1)).dir - middle));
+            size = std::max(
+                size,
+                glm::length(patchAt(emitter, toCenter, u0 + du * (corner & 1), v0 + dv * (corner >> 1)).dir -
+                            middle));
         return size < 0.5 * (alpha + std::max(0.0, glm::length(middle - mirror) - size));
     }
 
@@ -127,12 +133,15 @@ struct Integrator {
             sum.specular += quarter[i].specular;
         }
         const dvec2 change = sum.specular - coarse.specular;
-        const double error = std::max({std::abs(change.x), std::abs(change.y), std::abs(sum.diffuse - coarse.diffuse) * 0.3});
-        if (depth >= 11 || (depth >= 2 && error < tolerance * std::pow(0.5, 0.5 * depth) && resolves(u0, v0, du, dv)))
+        const double error =
+            std::max({std::abs(change.x), std::abs(change.y), std::abs(sum.diffuse - coarse.diffuse) * 0.3});
+        if (depth >= 11 ||
+            (depth >= 2 && error < tolerance * std::pow(0.5, 0.5 * depth) && resolves(u0, v0, du, dv)))
             return sum;
         sum = {};
         for (int i = 0; i < 4; ++i) {
-            const Reflected part = refine(quarter[i], u0 + hu * (i & 1), v0 + hv * (i >> 1), hu, hv, depth + 1);
+            const Reflected part =
+                refine(quarter[i], u0 + hu * (i & 1), v0 + hv * (i >> 1), hu, hv, depth + 1);
             sum.diffuse += part.diffuse;
             sum.specular += part.specular;
         }
@@ -145,23 +154,25 @@ struct Integrator {
 dvec2 referenceGgx(const Surface& surface, const dvec3& lightDir) {
     const double noL = glm::dot(surface.normal, lightDir);
     const double noV = glm::dot(surface.normal, surface.view);
-    if (noL <= 0.0)
-        return dvec2(0.0);
+    if (noL <= 0.0) return dvec2(0.0);
     const double a2 = std::pow(surface.roughness, 4.0);
     const dvec3 half = glm::normalize(lightDir + surface.view);
     const double noH = glm::dot(surface.normal, half);
     const dvec3 across = glm::cross(surface.normal, half);
     const double d = a2 / (kPi * std::pow(noH * noH * a2 + glm::dot(across, across), 2.0));
-    const auto lambda = [&](double cosine) { return 0.5 * (std::sqrt(1.0 + a2 * (1.0 / (cosine * cosine) - 1.0)) - 1.0); };
+    const auto lambda = [&](double cosine) {
+        return 0.5 * (std::sqrt(1.0 + a2 * (1.0 / (cosine * cosine) - 1.0)) - 1.0);
+    };
     const double g = 1.0 / (1.0 + lambda(noV) + lambda(noL));
     return {d * g / (4.0 * noV), std::pow(1.0 - glm::dot(half, lightDir), 5.0)};
 }
 
 Reflected integrate(const Emitter& emitter, const Surface& surface) {
     const dvec3 mirror = 2.0 * glm::dot(surface.normal, surface.view) * surface.normal - surface.view;
-    Integrator integrator{emitter, surface, emitter.center - surface.position, mirror, surface.roughness * surface.roughness, 0.0};
-    if (emitter.type == shared::LIGHT_DIRECTIONAL)
-        integrator.toCenter = emitter.z;
+    Integrator integrator{
+        emitter, surface, emitter.center - surface.position, mirror, surface.roughness * surface.roughness,
+        0.0};
+    if (emitter.type == shared::LIGHT_DIRECTIONAL) integrator.toCenter = emitter.z;
     // Two rounds: the first finds the size of the value. In thirds, so that no cell holds a seam of the tube.
     Reflected sum;
     for (const double tolerance : {1e-3, 1e-4}) {
@@ -179,7 +190,8 @@ Reflected integrate(const Emitter& emitter, const Surface& surface) {
 }
 
 double lobePeak(const Surface& surface, double f0) {
-    const dvec3 tangent = glm::normalize(surface.view - surface.normal * glm::dot(surface.view, surface.normal) + dvec3(1e-12, 0.0, 0.0));
+    const dvec3 tangent = glm::normalize(
+        surface.view - surface.normal * glm::dot(surface.view, surface.normal) + dvec3(1e-12, 0.0, 0.0));
     const double mirrorAngle = -std::acos(std::min(glm::dot(surface.view, surface.normal), 1.0));
     const double alpha = surface.roughness * surface.roughness;
     double peak = 0.0;
@@ -200,23 +212,28 @@ shared::LightHot hotRecord(const Emitter& emitter, const glm::vec3& intensity) {
     light.intensity = intensity;
     light.typeFlags = emitter.type;
     light.sizeM = glm::vec2(emitter.size);
-    if (emitter.type == shared::LIGHT_SPOT)
-        light.shaping = {1.0f, 2.0f}; // open on all sides
+    if (emitter.type == shared::LIGHT_SPOT) light.shaping = {1.0f, 2.0f}; // open on all sides
     return light;
 }
 
 Emitter emitterOf(const f64::LightHot& light) {
     const glm::dmat3 frame = f64::lightFrame(light);
-    return {light.typeFlags & shared::LIGHT_TYPE_MASK, light.positionWs, frame[0], frame[1], frame[2], light.sizeM};
+    return {light.typeFlags & shared::LIGHT_TYPE_MASK,
+            light.positionWs,
+            frame[0],
+            frame[1],
+            frame[2],
+            light.sizeM};
 }
 
 std::string describe(const Emitter& e, const Surface& s) {
     char text[400];
-    std::snprintf(text, sizeof(text),
-                  "center (%.4f %.4f %.4f) x (%.3f %.3f %.3f) z (%.3f %.3f %.3f) size (%.4f %.4f); surface at 0, "
-                  "normal (0 0 1), view (%.3f %.3f %.3f), roughness %.3f",
-                  e.center.x, e.center.y, e.center.z, e.x.x, e.x.y, e.x.z, e.z.x, e.z.y, e.z.z, e.size.x, e.size.y,
-                  s.view.x, s.view.y, s.view.z, s.roughness);
+    std::snprintf(
+        text, sizeof(text),
+        "center (%.4f %.4f %.4f) x (%.3f %.3f %.3f) z (%.3f %.3f %.3f) size (%.4f %.4f); surface at 0, "
+        "normal (0 0 1), view (%.3f %.3f %.3f), roughness %.3f",
+        e.center.x, e.center.y, e.center.z, e.x.x, e.x.y, e.x.z, e.z.x, e.z.y, e.z.z, e.size.x, e.size.y,
+        s.view.x, s.view.y, s.view.z, s.roughness);
     return text;
 }
 

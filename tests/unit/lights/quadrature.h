@@ -1,5 +1,6 @@
-// Adaptive quadrature over light surfaces in double precision: the truth that analytic irradiance is held against.
-// Written from the light model's definition, without shaders/lights; only the BRDF is written again here.
+// Adaptive quadrature over light surfaces in double precision: the truth that analytic irradiance is held
+// against. Written from the light model's definition, without shaders/lights; only the BRDF is written again
+// here.
 #pragma once
 
 #include "renderer/lights_cpp/lights_f64.h"
@@ -40,7 +41,8 @@ struct Reflected {
 // D V cosine of GGX and Schlick's weight, written straight from the formulas.
 dvec2 referenceGgx(const Surface& surface, const dvec3& lightDir);
 
-// Integrates over the emitter's visible surface to about 1e-4 of the largest of value and 0.1 % of a full lobe.
+// Integrates over the emitter's visible surface to about 1e-4 of the largest of value and 0.1 % of a full
+// lobe.
 Reflected integrate(const Emitter& emitter, const Surface& surface);
 
 // The largest D V cosine (F0 + (1 - F0) weight) over all light directions.

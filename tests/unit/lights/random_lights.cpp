@@ -41,14 +41,11 @@ Configuration randomConfiguration(Random& random, shared::uint type) {
     c.emitter.center = toLight * distance;
     c.emitter.size = {size, 0.0};
     c.emitter.z = random.direction();
-    if (type == shared::LIGHT_RECT)
-        c.emitter.size.y = size * random.logUniform(0.1, 1.0);
-    if (type == shared::LIGHT_TUBE)
-        c.emitter.size = {size * 0.1, size};
+    if (type == shared::LIGHT_RECT) c.emitter.size.y = size * random.logUniform(0.1, 1.0);
+    if (type == shared::LIGHT_TUBE) c.emitter.size = {size * 0.1, size};
     if (type == shared::LIGHT_RECT || type == shared::LIGHT_DISK) // looks about towards the receiver
         c.emitter.z = glm::normalize(toLight * 1.2 + c.emitter.z);
-    if (type == shared::LIGHT_DIRECTIONAL)
-        c.emitter.z = toLight;
+    if (type == shared::LIGHT_DIRECTIONAL) c.emitter.z = toLight;
     const glm::dmat3 frame = f64::basisFromNormalTangent(c.emitter.z, random.direction());
     c.emitter.x = frame[0];
     c.emitter.y = frame[1];
@@ -56,8 +53,7 @@ Configuration randomConfiguration(Random& random, shared::uint type) {
 }
 
 double sineOf(const Emitter& emitter) {
-    if (emitter.type == shared::LIGHT_DIRECTIONAL)
-        return emitter.size.x;
+    if (emitter.type == shared::LIGHT_DIRECTIONAL) return emitter.size.x;
     const bool tube = emitter.type == shared::LIGHT_TUBE;
     const double radius = tube ? emitter.size.x + emitter.size.y : glm::length(emitter.size);
     return radius / glm::length(emitter.center);

@@ -8,8 +8,9 @@
 namespace kilolux::test {
 
 inline constexpr const char* kTypeNames[] = {"directional", "sphere", "spot", "tube", "rect", "disk"};
-inline constexpr shared::uint kAllTypes[] = {shared::LIGHT_DIRECTIONAL, shared::LIGHT_SPHERE, shared::LIGHT_SPOT,
-                                             shared::LIGHT_TUBE,        shared::LIGHT_RECT,   shared::LIGHT_DISK};
+inline constexpr shared::uint kAllTypes[] = {shared::LIGHT_DIRECTIONAL, shared::LIGHT_SPHERE,
+                                             shared::LIGHT_SPOT,        shared::LIGHT_TUBE,
+                                             shared::LIGHT_RECT,        shared::LIGHT_DISK};
 
 struct Random {
     std::mt19937 engine;
@@ -23,12 +24,13 @@ struct Configuration {
     Surface surface;
 };
 
-// Half of the lights are aimed at the lobe (within a few of its widths), the others anywhere above the surface;
-// sizes from 1/1000 of the distance to wider than it; roughness and viewing angle even over their ranges. The
-// surface lies at 0 and looks up +z.
+// Half of the lights are aimed at the lobe (within a few of its widths), the others anywhere above the
+// surface; sizes from 1/1000 of the distance to wider than it; roughness and viewing angle even over their
+// ranges. The surface lies at 0 and looks up +z.
 Configuration randomConfiguration(Random& random, shared::uint type);
 
-// Sine of the half angle of a cone about the centre that holds the emitter, seen from 0; above 1 from inside it.
+// Sine of the half angle of a cone about the centre that holds the emitter, seen from 0; above 1 from inside
+// it.
 double sineOf(const Emitter& emitter);
 
 // Unit, from 0.

@@ -1,4 +1,5 @@
-// uv -> point: even in area, continuous, fixed to the light's frame, unbiased, and inverted by lightIntersect.
+// uv -> point: even in area, continuous, fixed to the light's frame, unbiased, and inverted by
+// lightIntersect.
 #include "tests/unit/lights/random_lights.h"
 
 #include <cmath>
@@ -33,19 +34,17 @@ Emitter standard(shared::uint type) {
     return {type, {0, 0, 2}, x, glm::cross(z, x), z, size};
 }
 
-// The point of the light's own map at this uv, found as a receiver that sees it would be given it; nan if none of
-// the receivers tried does.
+// The point of the light's own map at this uv, found as a receiver that sees it would be given it; nan if
+// none of the receivers tried does.
 dvec3 pointAt(const f64::LightHot& light, const dvec2& uv) {
     const Emitter e = emitterOf(light);
-    if (e.type == shared::LIGHT_DIRECTIONAL)
-        return f64::lightSample(light, dvec3(0.0), uv).dirWs;
+    if (e.type == shared::LIGHT_DIRECTIONAL) return f64::lightSample(light, dvec3(0.0), uv).dirWs;
     if (e.type == shared::LIGHT_SPHERE || e.type == shared::LIGHT_SPOT)
         return e.center + f64::lightFrame(light) * f64::sphereFromSquare(uv) * e.size.x;
     for (int i = 0; i < 26; ++i) {
         const dvec3 away = f64::sphereFromSquare({i % 5 / 5.0, (i / 5 + 0.4) / 5.2});
         const f64::LightSample s = f64::lightSample(light, e.center + away * 50.0, uv);
-        if (s.valid && glm::length(s.uv - uv) < 1e-9)
-            return s.positionWs;
+        if (s.valid && glm::length(s.uv - uv) < 1e-9) return s.positionWs;
     }
     return dvec3(std::nan(""));
 }
@@ -61,7 +60,8 @@ TEST_P(Sampling, MapPreservesAreaAndIsContinuous) {
         const dvec3 du = pointAt(light, uv + dvec2(step, 0.0)) - p;
         const dvec3 dv = pointAt(light, uv + dvec2(0.0, step)) - p;
         ASSERT_FALSE(std::isnan(p.x + du.x + dv.x)) << uv.x << ", " << uv.y;
-        EXPECT_NEAR(glm::length(glm::cross(du, dv)) / (step * step), areaOf(e), 2e-3 * areaOf(e)) << uv.x << ", " << uv.y;
+        EXPECT_NEAR(glm::length(glm::cross(du, dv)) / (step * step), areaOf(e), 2e-3 * areaOf(e))
+            << uv.x << ", " << uv.y;
         EXPECT_LT(glm::length(du) + glm::length(dv), 100.0 * step);
     }
 }
@@ -72,32 +72,31 @@ TEST_P(Sampling, SamePointForEveryReceiver) {
     Random random{std::mt19937(4)};
     for (int i = 0; i < 500; ++i) {
         const dvec3 receiver = random.direction() * random.uniform(0.0, 1.3);
-        const f64::LightSample s = f64::lightSample(light, receiver, {random.uniform(0, 1), random.uniform(0, 1)});
-        if (!s.valid)
-            continue;
+        const f64::LightSample s =
+            f64::lightSample(light, receiver, {random.uniform(0, 1), random.uniform(0, 1)});
+        if (!s.valid) continue;
         const dvec3 point = e.type == shared::LIGHT_DIRECTIONAL ? s.dirWs : s.positionWs;
         const dvec3 own = pointAt(light, s.uv);
-        if (std::isnan(own.x))
-            continue; // on the map's seam, or seen by none of pointAt's receivers
+        if (std::isnan(own.x)) continue; // on the map's seam, or seen by none of pointAt's receivers
         EXPECT_LT(glm::length(own - point), 1e-6) << s.uv.x << ", " << s.uv.y;
     }
 }
 
-// The estimator with many even uv equals quadrature, so pdf and geometry are right; they agree with each other.
+// The estimator with many even uv equals quadrature, so pdf and geometry are right; they agree with each
+// other.
 TEST_P(Sampling, MeanOfSamplesIsTheIrradiance) {
     Random random{std::mt19937(5 + GetParam())};
     for (int i = 0; i < 8; ++i) {
         Configuration c = randomConfiguration(random, GetParam());
-        if (sineOf(c.emitter) > 0.8)
-            continue;
+        if (sineOf(c.emitter) > 0.8) continue;
         const f64::LightHot light = f64::fromF32(hotRecord(c.emitter, glm::vec3(1.0f)));
         c.emitter = emitterOf(light);
-        if (f64::lightEvaluate(light, dvec3(0.0)).x <= 0.0)
-            continue;
+        if (f64::lightEvaluate(light, dvec3(0.0)).x <= 0.0) continue;
         double sum = 0.0;
         const int count = 300;
         for (int k = 0; k < count * count; ++k) {
-            const f64::LightSample s = f64::lightSample(light, dvec3(0.0), {(k % count + 0.5) / count, (k / count + 0.5) / count});
+            const f64::LightSample s =
+                f64::lightSample(light, dvec3(0.0), {(k % count + 0.5) / count, (k / count + 0.5) / count});
             sum += s.valid ? s.geometry * std::max(s.dirWs.z, 0.0) / (count * count) : 0.0;
             EXPECT_NEAR(s.valid ? s.geometry * s.pdfSolidAngle : 1.0, 1.0, 1e-6);
         }
@@ -114,8 +113,7 @@ TEST_P(Sampling, IntersectionFindsTheSampleAgain) {
         const f64::LightHot light = f64::fromF32(hotRecord(c.emitter, glm::vec3(1.0f)));
         const dvec2 uv(random.uniform(0.002, 0.998), random.uniform(0.002, 0.998));
         const f64::LightSample s = f64::lightSample(light, dvec3(0.0), uv);
-        if (!s.valid || -glm::dot(s.emitterNormalWs, s.dirWs) < 0.03)
-            continue;
+        if (!s.valid || -glm::dot(s.emitterNormalWs, s.dirWs) < 0.03) continue;
         ++tested;
         const f64::LightHit hit = f64::lightIntersect(light, dvec3(0.0), s.dirWs);
         ASSERT_TRUE(hit.hit) << describe(c.emitter, c.surface) << " uv " << uv.x << ", " << uv.y;
@@ -144,8 +142,10 @@ TEST_P(Sampling, DensityIsNormalized) {
         const dvec2 uv((i % count + 0.5) / count, (i / count + 0.5) / count);
         const double m = (1.0 - uv.y * uv.y) * cone;
         const double sine = std::sqrt(m * (2.0 - m));
-        const dvec3 dir = frame * dvec3(sine * std::cos(2.0 * kPi * uv.x), sine * std::sin(2.0 * kPi * uv.x), 1.0 - m);
-        integral += f64::lightIntersect(light, dvec3(0.0), dir).pdfSolidAngle * 2.0 * kPi * cone * 2.0 * uv.y / (count * count);
+        const dvec3 dir =
+            frame * dvec3(sine * std::cos(2.0 * kPi * uv.x), sine * std::sin(2.0 * kPi * uv.x), 1.0 - m);
+        integral += f64::lightIntersect(light, dvec3(0.0), dir).pdfSolidAngle * 2.0 * kPi * cone * 2.0 *
+                    uv.y / (count * count);
         valid += f64::lightSample(light, dvec3(0.0), uv).valid ? 1.0 / (count * count) : 0.0;
     }
     EXPECT_NEAR(integral, valid, 0.02);
@@ -188,7 +188,8 @@ TEST(Hash, BitsAreEven) {
     std::vector<int> buckets(256);
     const int count = 1 << 18;
     for (int i = 0; i < count; ++i) {
-        const dvec2 u = f64::whiteNoise2(f64::pixelSeed({static_cast<unsigned>(i % 512), static_cast<unsigned>(i / 512)}, 7, 1), 3);
+        const dvec2 u = f64::whiteNoise2(
+            f64::pixelSeed({static_cast<unsigned>(i % 512), static_cast<unsigned>(i / 512)}, 7, 1), 3);
         ASSERT_TRUE(u.x >= 0.0 && u.x < 1.0 && u.y >= 0.0 && u.y < 1.0);
         ++buckets[static_cast<std::size_t>(u.x * 16) * 16 + static_cast<std::size_t>(u.y * 16)];
     }
