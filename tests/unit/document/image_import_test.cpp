@@ -104,6 +104,23 @@ TEST(ImageImport, ProgressiveJpegsCannotClaimMemory) {
     EXPECT_NE(image.error().find("progressive image of at most 64 MiB"), std::string::npos) << image.error();
 }
 
+TEST(ImageImport, ExrTilesCannotClaimMemory) {
+    const TempFolder folder;
+    OIIO::ImageSpec spec(16, 16, 3, OIIO::TypeDesc::FLOAT);
+    spec.tile_width = spec.tile_height = 16;
+    const auto path = writeImage(folder, "a.exr", spec, Floats(16 * 16 * 3, 0.5f));
+    std::ifstream stream(path, std::ios::binary);
+    std::string file((std::istreambuf_iterator<char>(stream)), {});
+    const std::size_t tiles = file.find(std::string("tiledesc\0", 9)) + 9 + 4;
+    const std::uint32_t height = 10878993;
+    std::memcpy(file.data() + tiles + 4, &height, sizeof(height));
+    const auto image = importImage(folder.write("b.exr", file));
+    ASSERT_FALSE(image);
+    EXPECT_NE(image.error().find("b.exr: expected tiles of at most 4096 pixels a side, found 16 x 10878993"),
+              std::string::npos)
+        << image.error();
+}
+
 TEST(ImageImport, CutFilesAreOneLineEach) {
     const TempFolder folder;
     for (const char* name : {"a.png", "a.exr", "a.hdr", "a.jpg"}) {
