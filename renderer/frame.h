@@ -14,7 +14,7 @@ enum class GBufferProducer { Raster, Compute };
 // What is decided before recording; conditions are resolved here and nowhere else.
 struct FramePlan {
     GBufferProducer producer = GBufferProducer::Raster;
-    Tracer tracer = Tracer::Compute;
+    TraceBackEnd tracer = TraceBackEnd::ComputeBvh;
     Method method = Method::AllLights;
     int view = 0; // VIEW_*
     std::uint32_t raysPerLight = 1;

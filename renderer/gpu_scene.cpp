@@ -99,7 +99,7 @@ GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, c
 
 Result<std::unique_ptr<GpuScene>> GpuScene::create(gpu::Device& device, const Scene& scene,
                                                    const glm::dvec3& anchor, double exposureEv100,
-                                                   const std::vector<bool>& moving) {
+                                                   TraceBackEnd backEnd, const std::vector<bool>& moving) {
     std::unique_ptr<GpuScene> result(new GpuScene(device, anchor));
     result->instances_ = enumerateInstances(scene);
     std::vector<std::uint32_t> placeOfImage;
@@ -107,7 +107,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(gpu::Device& device, const Sc
     result->uploadGeometry(scene);
     result->uploadMaterials(scene, placeOfImage);
     result->world_ = buildWorld(scene, result->instances_, moving, anchor);
-    result->rayWorld_ = std::make_unique<GpuRayWorld>(device, result->world_);
+    result->rayWorld_ = std::make_unique<GpuRayWorld>(device, result->world_, backEnd);
     result->world_.nodes.resize(result->world_.topNodeCapacity);
     result->world_.nodes.shrink_to_fit();
     result->world_.pairs = {};

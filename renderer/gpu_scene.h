@@ -30,6 +30,7 @@ class GpuScene {
     // The LTC table must be bound (ltc_table.h).
     static Result<std::unique_ptr<GpuScene>> create(gpu::Device& device, const Scene& scene,
                                                     const glm::dvec3& anchor, double exposureEv100,
+                                                    TraceBackEnd backEnd = TraceBackEnd::ComputeBvh,
                                                     const std::vector<bool>& moving = {});
 
     const std::vector<Instance>& instances() const { return instances_; }

@@ -140,8 +140,14 @@ std::optional<Error> Renderer::Impl::prepare() {
     const bool metered = options.settings.exposureEv100.automatic && !scene.hasExposure;
     exposureEv100 = metered ? deriveExposureEv100(scene)
                             : options.settings.exposureEv100.valueOr(scene.exposureEv100);
+    if (options.settings.tracer == TracerChoice::RayQuery && !device.hasRayQuery()) {
+        return Error{fmt::format("device '{}' has no ray query; use tracer=compute", device.name())};
+    }
+    const bool rayQuery = options.settings.tracer == TracerChoice::RayQuery ||
+                          (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
+    plan.tracer = rayQuery ? TraceBackEnd::RayQuery : TraceBackEnd::ComputeBvh;
     Result<std::unique_ptr<GpuScene>> uploaded =
-        GpuScene::create(device, scene, anchorFor(camera), exposureEv100);
+        GpuScene::create(device, scene, anchorFor(camera), exposureEv100, plan.tracer);
     if (!uploaded) return Error{uploaded.error()};
     gpuScene = std::move(uploaded.value());
     if (gpuScene->derivedRanges() > 0) {
@@ -152,18 +158,16 @@ std::optional<Error> Renderer::Impl::prepare() {
 
     plan.producer = chooseProducer(options.settings, device, gpuScene->triangles(),
                                    std::size_t(options.width) * std::size_t(options.height));
-    if (options.settings.tracer == TracerChoice::RayQuery && !device.hasRayQuery()) {
-        return Error{fmt::format("device '{}' has no ray query; use tracer=compute", device.name())};
-    }
-    const bool rayQuery = options.settings.tracer == TracerChoice::RayQuery ||
-                          (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
-    plan.tracer = rayQuery ? Tracer::RayQuery : Tracer::Compute;
     plan.method = Method(*method);
     plan.view = *view;
     plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
     plan.transparent = !gpuScene->transparentDraws().empty();
 
     features = gpuScene->features();
+    if (options.allFeatures) {
+        for (std::uint32_t feature = 0; feature < shared::FEATURE_COUNT; ++feature) features[feature] = 1;
+        features[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
+    }
     features[shared::CHOICE_ESTIMATOR] =
         plan.method == Method::ReferenceTrue ? shared::ESTIMATOR_TRUE : shared::ESTIMATOR_SPLIT;
     features[shared::CHOICE_TONE_MAP] =
@@ -171,7 +175,7 @@ std::optional<Error> Renderer::Impl::prepare() {
     features[shared::CHOICE_VIEW] = std::uint32_t(plan.view);
 
     targets = std::make_unique<Targets>(device, std::uint32_t(options.width), std::uint32_t(options.height),
-                                        plan.producer == GBufferProducer::Raster);
+                                        plan.producer == GBufferProducer::Raster, plan.view != shared::VIEW_FINAL);
     passes = std::make_unique<FramePasses>(resources, plan);
     frameBuffer = gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                        gpu::MemoryUse::HostWrite, "other"});
@@ -285,7 +289,7 @@ Result<std::vector<NamedImage>> Renderer::targets() {
     std::vector<NamedImage> result;
     if (!impl_->options.keepTargets) return result;
     for (const gpu::Image* image : impl_->targets->all()) {
-        result.push_back({image->desc().name, toFloatImage(*image)});
+        result.push_back({image->desc().name, toFloatImage(*image), image->download()});
     }
     return result;
 }

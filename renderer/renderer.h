@@ -8,6 +8,7 @@
 #include "renderer/settings.h"
 #include "renderer/statistics.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -34,6 +35,7 @@ struct RenderOptions {
     std::string camera; // name of one of the scene's cameras; empty: the first one, or a derived one
     Settings settings;
     bool keepTargets = false; // keep what Renderer::targets() reads back
+    bool allFeatures = false; // the pipelines that can draw any scene; the same picture, slower
 };
 
 struct Picture {
@@ -43,10 +45,11 @@ struct Picture {
     std::vector<std::uint8_t> srgb8; // as the display shows it, 3 bytes a pixel
 };
 
-// One target of the last frame, as floats.
+// One target of the last frame.
 struct NamedImage {
     std::string name; // GLSL name
     FloatImage image;
+    std::vector<std::byte> texels; // as the device holds them, tightly packed: packed words do not fit floats
 };
 
 // Called after every finished frame with (frames done, frames in all); false cancels the render.

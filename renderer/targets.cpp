@@ -5,7 +5,8 @@
 
 namespace kilolux {
 
-Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, bool raster) {
+Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, bool raster,
+                 bool debugView) {
     const auto make = [&](const char* name, VkFormat format, VkImageUsageFlags more = 0) {
         return gpu::Image(device, {.name = name,
                                    .format = format,
@@ -37,14 +38,15 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
     lightCounts = make("lightCounts", VK_FORMAT_R32_UINT);
     sceneColor = make("sceneColor", VK_FORMAT_R32G32B32A32_SFLOAT, attachment);
     meanColor = make("meanColor", VK_FORMAT_R32G32B32A32_SFLOAT);
-    viewValues = make("viewValues", VK_FORMAT_R32G32B32A32_SFLOAT);
+    if (debugView) viewValues = make("viewValues", VK_FORMAT_R32G32B32A32_SFLOAT);
     display = make("display", VK_FORMAT_R8G8B8A8_UNORM);
 }
 
 std::vector<const gpu::Image*> Targets::all() const {
-    std::vector<const gpu::Image*> result{&visibility, &gDepth,      &gNormals,    &gMaterial,  &gEmissive,
-                                          &pyramid,    &litDiffuse,  &litSpecular, &lightCounts, &sceneColor,
-                                          &meanColor,  &viewValues,  &display};
+    std::vector<const gpu::Image*> result{&visibility,  &gDepth,     &gNormals,   &gMaterial,
+                                          &gEmissive,   &pyramid,    &litDiffuse, &litSpecular,
+                                          &lightCounts, &sceneColor, &meanColor,  &display};
+    if (viewValues) result.push_back(&viewValues);
     if (rasterDepth) result.insert(result.begin() + 1, &rasterDepth);
     return result;
 }

@@ -9,7 +9,7 @@
 namespace kilolux {
 
 struct Targets {
-    Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, bool raster);
+    Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, bool raster, bool debugView);
 
     gpu::Image visibility;   // RG32UI: instance, primitive; 0xffffffff twice without a surface
     gpu::Image rasterDepth;  // D32, reversed; only with the raster producer
@@ -23,7 +23,7 @@ struct Targets {
     gpu::Image lightCounts;  // R32UI: lights in range, lights seen << 16
     gpu::Image sceneColor;   // RGBA32F, exposed: this frame's picture
     gpu::Image meanColor;    // RGBA32F, exposed: mean of the frames
-    gpu::Image viewValues;   // RGBA32F: raw values of a debug view
+    gpu::Image viewValues;   // RGBA32F: raw values of a debug view; only with one
     gpu::Image display;      // RGBA8, sRGB-encoded
 
     std::vector<const gpu::Image*> all() const; // those that exist

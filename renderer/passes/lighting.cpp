@@ -5,7 +5,7 @@ namespace kilolux {
 
 using gpu::Access;
 
-LightAllPass::LightAllPass(gpu::PassResources& resources, Tracer tracer)
+LightAllPass::LightAllPass(gpu::PassResources& resources, TraceBackEnd tracer)
     : pass_(resources, "light_all",
             joined({{{"Frame"},
                      {"gDepth"},

@@ -23,9 +23,6 @@ struct FrameContext {
     gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
 };
 
-// Which world tracer a pass is compiled with.
-enum class Tracer { Compute, RayQuery };
-
 class RasterVisibilityPass {
   public:
     explicit RasterVisibilityPass(gpu::PassResources& resources);
@@ -37,7 +34,7 @@ class RasterVisibilityPass {
 
 class TraceVisibilityPass {
   public:
-    TraceVisibilityPass(gpu::PassResources& resources, Tracer tracer);
+    TraceVisibilityPass(gpu::PassResources& resources, TraceBackEnd tracer);
     void record(FrameContext& frame, const gpu::Bindings& world);
 
   private:
@@ -64,7 +61,7 @@ class DepthPyramidPass {
 
 class LightAllPass {
   public:
-    LightAllPass(gpu::PassResources& resources, Tracer tracer);
+    LightAllPass(gpu::PassResources& resources, TraceBackEnd tracer);
     void record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t raysPerLight);
 
   private:
@@ -125,11 +122,11 @@ class DebugViewPass {
 // Declarations that match the include files of shaders/lib.
 std::vector<gpu::PassUse> geometryUses();
 std::vector<gpu::PassUse> surfaceUses();
-std::vector<gpu::PassUse> traceUses(Tracer tracer);
+std::vector<gpu::PassUse> traceUses(TraceBackEnd tracer);
 std::vector<gpu::PassUse> lightUses();
 std::vector<gpu::PassUse> joined(std::initializer_list<std::vector<gpu::PassUse>> lists);
 gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists);
-std::vector<std::string> tracerDefines(Tracer tracer);
+std::vector<std::string> tracerDefines(TraceBackEnd tracer);
 
 // Draws the items that the camera may see; sets culling and winding where they change.
 void drawVisible(VkCommandBuffer commands, const FrameContext& frame, const std::vector<DrawItem>& items);

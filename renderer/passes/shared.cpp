@@ -25,8 +25,8 @@ std::vector<PassUse> surfaceUses() {
                     {"texturesSrgb3", read, optional}}});
 }
 
-std::vector<PassUse> traceUses(Tracer tracer) {
-    return GpuRayWorld::traceUses(tracer == Tracer::RayQuery ? TraceBackEnd::RayQuery : TraceBackEnd::ComputeBvh);
+std::vector<PassUse> traceUses(TraceBackEnd tracer) {
+    return GpuRayWorld::traceUses(tracer);
 }
 
 std::vector<PassUse> lightUses() {
@@ -45,8 +45,8 @@ gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists) {
     return result;
 }
 
-std::vector<std::string> tracerDefines(Tracer tracer) {
-    if (tracer == Tracer::RayQuery) return {"KX_RAY_QUERY"};
+std::vector<std::string> tracerDefines(TraceBackEnd tracer) {
+    if (tracer == TraceBackEnd::RayQuery) return {"KX_RAY_QUERY"};
     return {};
 }
 

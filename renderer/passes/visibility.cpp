@@ -22,7 +22,7 @@ void RasterVisibilityPass::record(FrameContext& frame) {
                  });
 }
 
-TraceVisibilityPass::TraceVisibilityPass(gpu::PassResources& resources, Tracer tracer)
+TraceVisibilityPass::TraceVisibilityPass(gpu::PassResources& resources, TraceBackEnd tracer)
     : pass_(resources, "trace_visibility",
             joined({{{"Frame"}, {"visibilityOut", Access::Write}}, geometryUses(), traceUses(tracer)}), {},
             tracerDefines(tracer)) {}
