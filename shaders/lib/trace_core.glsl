@@ -216,18 +216,12 @@ KX_INLINE bool traverse(Ray ray, bool anyHit, uint alphaMode, INOUT(PairHit) fou
             uvec4 n1 = fetchNode(ref * BVH_NODE_TEXELS + 1u);
             BoxSpan s0 = intersectBox(n0.x, n0.y, n0.z, space, ray.tMinM, found.tM);
             BoxSpan s1 = intersectBox(n1.x, n1.y, n1.z, space, ray.tMinM, found.tM);
+            bool both = s0.hit && s1.hit;
             bool swap = s1.hit && (!s0.hit || s1.near < s0.near);
-            uint nearRef = swap ? n1.w : n0.w;
-            if (s0.hit && s1.hit) {
-                stack[top] = swap ? n0.w : n1.w;
-                top += 1u;
-            }
-            if (s0.hit || s1.hit) {
-                ref = nearRef;
-            } else {
-                top -= 1u;
-                ref = stack[top];
-            }
+            stack[top] = swap ? n0.w : n1.w;
+            uint popped = stack[top - 1u];
+            ref = s0.hit || s1.hit ? (swap ? n1.w : n0.w) : popped;
+            top += both ? 1u : (s0.hit || s1.hit ? 0u : 0xFFFFFFFFu);
         }
         while (ref >= BVH_REF_LEAF && ref < BVH_REF_ENTER) {
             bool nearer = intersectPair(ref & BVH_LEAF_FIRST_MASK, space, ray.tMinM, alphaMode, found, sawAlpha);

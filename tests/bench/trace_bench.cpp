@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <fmt/format.h>
 #include <fstream>
 #include <thread>
@@ -28,10 +29,18 @@ struct Options {
     std::vector<std::string> scenes;
 };
 
-double millisecondsOf(const std::function<void()>& work) {
+// Wall and processor time of a run; the latter says more on a busy machine.
+struct RunTime {
+    double wallMs = 0.0;
+    double cpuMs = 0.0;
+};
+
+RunTime timeOf(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t startCpu = std::clock();
     work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return {std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count(),
+            1000.0 * double(std::clock() - startCpu) / CLOCKS_PER_SEC};
 }
 
 double median(std::vector<double> values) {
@@ -40,9 +49,9 @@ double median(std::vector<double> values) {
 }
 
 // Every thread takes every threads-th tile of 64 rays, as the shader's tiles are dealt out.
-double runEmbree(const EmbreeScene& embree, const std::vector<TestRay>& rays, std::vector<std::uint8_t>& hits,
+RunTime runEmbree(const EmbreeScene& embree, const std::vector<TestRay>& rays, std::vector<std::uint8_t>& hits,
                  unsigned threads) {
-    return millisecondsOf([&] {
+    return timeOf([&] {
         std::vector<std::thread> workers;
         for (unsigned worker = 0; worker < threads; ++worker)
             workers.emplace_back([&, worker] {
@@ -73,14 +82,14 @@ class GpuRun {
         results_ = gpu::Buffer(device, {"benchResults", rays.size() * 4});
     }
 
-    double run() {
+    RunTime run() {
         gpu::Bindings bindings = world_.traceBindings();
         bindings.push_back({"benchRays", rays_});
         bindings.push_back({"BenchResults", results_});
         gpu::Commands commands(device_);
         pass_.record(commands, {{shared::FEATURE_ALPHA_MASK, world_.hasAlpha()}}, bindings, push_,
                      {(push_.rayCount + 63) / 64});
-        return millisecondsOf([&] { commands.submitAndWait(); });
+        return timeOf([&] { commands.submitAndWait(); });
     }
 
     std::vector<std::uint32_t> results() const { return results_.downloadAs<std::uint32_t>(); }
@@ -117,13 +126,16 @@ SceneResult benchScene(gpu::Device& device, gpu::PassResources& resources, const
     const EmbreeScene embree(bench.scene, instances, bench.moving);
     GpuRun gpu(device, resources, gpuWorld, rays, options.threads);
     std::vector<std::uint8_t> embreeHits(rays.size());
-    const double firstMs = gpu.run();
+    const double firstMs = gpu.run().wallMs;
     runEmbree(embree, rays, embreeHits, options.threads);
-    std::vector<double> gpuMs, embreeMs, ratios;
+    std::vector<double> gpuMs, embreeMs, ratios, cpuRatios;
     for (int pair = 0; pair < options.pairs; ++pair) {
-        embreeMs.push_back(runEmbree(embree, rays, embreeHits, options.threads));
-        gpuMs.push_back(gpu.run());
-        ratios.push_back(embreeMs.back() / gpuMs.back());
+        const RunTime ofEmbree = runEmbree(embree, rays, embreeHits, options.threads);
+        const RunTime ofGpu = gpu.run();
+        embreeMs.push_back(ofEmbree.wallMs);
+        gpuMs.push_back(ofGpu.wallMs);
+        ratios.push_back(ofEmbree.wallMs / ofGpu.wallMs);
+        cpuRatios.push_back(ofEmbree.cpuMs / ofGpu.cpuMs);
     }
     const std::vector<std::uint32_t> gpuHits = gpu.results();
     std::size_t different = 0, occludedRays = 0;
@@ -139,19 +151,20 @@ SceneResult benchScene(gpu::Device& device, gpu::PassResources& resources, const
         "{}: {} triangles, {} rays, {:.1f} % occluded, {} differ\n"
         "  build {:.1f} ms (flatten scene {:.1f}, pairs {:.1f}, Embree {:.1f}, flatten {:.1f}), depth {}, SAH cost {:.1f}\n"
         "  memory {:.2f} MiB, {:.1f} bytes per triangle, {} nodes, {} pairs\n"
-        "  compute {:.1f} ms (first {:.0f}), rtcOccluded1 {:.1f} ms, ratio {:.3f} (from {:.3f} to {:.3f})\n",
+        "  compute {:.1f} ms (first {:.0f}), rtcOccluded1 {:.1f} ms, ratio {:.3f} (from {:.3f} to {:.3f}; by processor time {:.3f})\n",
         bench.name, triangles, rays.size(), 100.0 * occludedShare, different,
         stats.flattenSceneMs + stats.pairMs + stats.buildMs + stats.flattenMs, stats.flattenSceneMs, stats.pairMs,
         stats.buildMs, stats.flattenMs, stats.depth, stats.sahCost, mib, stats.bytesPerTriangle, stats.nodes,
         stats.pairs, median(gpuMs), firstMs, median(embreeMs), median(ratios),
-        *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()));
+        *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()),
+        median(cpuRatios));
     result.json = fmt::format(
         R"({{"scene":"{}","triangles":{},"rays":{},"occluded":{:.4f},"different":{},"buildMs":{:.2f},)"
         R"("mebibytes":{:.3f},"bytesPerTriangle":{:.2f},"computeMs":{:.3f},"firstDispatchMs":{:.1f},)"
-        R"("embreeMs":{:.3f},"ratio":{:.4f},"pairs":{}}})",
+        R"("embreeMs":{:.3f},"ratio":{:.4f},"ratioCpuTime":{:.4f},"pairs":{}}})",
         bench.name, triangles, rays.size(), occludedShare, different,
         stats.flattenSceneMs + stats.pairMs + stats.buildMs + stats.flattenMs, mib, stats.bytesPerTriangle,
-        median(gpuMs), firstMs, median(embreeMs), median(ratios), options.pairs);
+        median(gpuMs), firstMs, median(embreeMs), median(ratios), median(cpuRatios), options.pairs);
     return result;
 }
 
