@@ -65,8 +65,6 @@ void describePasses(const gpu::PassTimes& times, const std::vector<std::string_v
             frames.push_back(sum);
         }
         if (frames.empty()) continue;
-        statistics.firstDispatchMs.emplace_back(entry.name, frames.front());
-        if (frames.size() > 1) frames.erase(frames.begin());
         const double median = percentile(frames, 0.5);
         statistics.passes.push_back({entry.name, median, percentile(frames, 0.95)});
         statistics.frameMs += median;

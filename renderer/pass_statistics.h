@@ -11,8 +11,7 @@ namespace kilolux {
 
 void describeFeatures(const gpu::SpecValues& features, FrameStatistics& statistics);
 
-// Medians leave out each pass's first frame, which holds the driver's compilation, as soon as there is another.
-// `lighting` names the passes that count as direct lighting.
+// Medians over all frames. `lighting` names the passes that count as direct lighting.
 void describePasses(const gpu::PassTimes& times, const std::vector<std::string_view>& lighting,
                     FrameStatistics& statistics);
 

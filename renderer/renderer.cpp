@@ -11,6 +11,7 @@
 #include "shaders/shared/features.h"
 #include "shaders/shared/views.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -98,7 +99,8 @@ struct Renderer::Impl {
 
     std::optional<Error> prepare();
     Result<Picture> render(const RenderProgress& progress);
-    void runFrame(std::uint32_t index);
+    void runFrame(std::uint32_t index, int widthPx, int heightPx, gpu::PassTimes& passTimes);
+    void compilePipelines();
     Picture readPicture() const;
 
     double startMs;
@@ -147,7 +149,7 @@ std::optional<Error> Renderer::Impl::prepare() {
                           (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
     plan.tracer = rayQuery ? TraceBackEnd::RayQuery : TraceBackEnd::ComputeBvh;
     Result<std::unique_ptr<GpuScene>> uploaded =
-        GpuScene::create(device, scene, anchorFor(camera), exposureEv100, plan.tracer);
+        GpuScene::create(device, scene, anchorFor(camera, worldBounds(scene)), exposureEv100, plan.tracer);
     if (!uploaded) return Error{uploaded.error()};
     gpuScene = std::move(uploaded.value());
     if (gpuScene->derivedRanges() > 0) {
@@ -185,11 +187,11 @@ std::optional<Error> Renderer::Impl::prepare() {
     return std::nullopt;
 }
 
-void Renderer::Impl::runFrame(std::uint32_t index) {
+void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gpu::PassTimes& passTimes) {
     const glm::dvec2 jitter = options.settings.jitter
                                   ? filterOffset(options.settings.pixelFilter, index, options.seed)
                                   : glm::dvec2(0.0);
-    setCamera(constants, camera, gpuScene->anchor(), options.width, options.height, jitter);
+    setCamera(constants, camera, gpuScene->anchor(), widthPx, heightPx, jitter);
     constants.tileChunks = device.isCpu() ? std::max(1u, std::thread::hardware_concurrency()) : 1u;
     constants.frame = index;
     constants.seed = options.seed;
@@ -199,7 +201,7 @@ void Renderer::Impl::runFrame(std::uint32_t index) {
     frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
 
     const Bounds bounds = worldBounds(scene);
-    gpu::Commands commands(device, &times);
+    gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
     FrameContext context{commands, *gpuScene, *targets, frameBuffer, constants, counterBuffer, features};
     recordFrame(context, *passes, plan, world, index, float(0.25 * glm::length(bounds.max - bounds.min)));
@@ -208,6 +210,17 @@ void Renderer::Impl::runFrame(std::uint32_t index) {
     statistics.rays += counts[shared::COUNTER_RAYS];
     lightsInRange += counts[shared::COUNTER_LIGHTS_IN_RANGE];
     surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
+}
+
+// CPU drivers compile at the first dispatch. A frame of one tile makes them do it apart from the work, so that
+// the time is known; the frame after it starts afresh.
+void Renderer::Impl::compilePipelines() {
+    gpu::PassTimes compilation;
+    runFrame(0, std::min(8, options.width), std::min(8, options.height), compilation);
+    for (const gpu::PassTimes::Entry& entry : compilation.entries()) {
+        statistics.firstDispatchMs.emplace_back(entry.name, *std::max_element(entry.ms.begin(), entry.ms.end()));
+    }
+    statistics.rays = lightsInRange = surfacePixels = 0;
 }
 
 Picture Renderer::Impl::readPicture() const {
@@ -229,9 +242,10 @@ Picture Renderer::Impl::readPicture() const {
 }
 
 Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
+    compilePipelines();
     const double beginMs = nowMs();
     for (int i = 0; i < options.frames; ++i) {
-        runFrame(std::uint32_t(i));
+        runFrame(std::uint32_t(i), options.width, options.height, times);
         if (i == 0) statistics.startupMs = processAgeMs();
         if (progress && !progress(i + 1, options.frames)) return Error{"cancelled"};
     }

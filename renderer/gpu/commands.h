@@ -13,7 +13,7 @@ class PassTimes {
   public:
     struct Entry {
         std::string name;
-        std::vector<double> ms; // the first value includes the driver's compilation
+        std::vector<double> ms;
     };
     void add(std::string_view name, double ms);
     const std::vector<Entry>& entries() const { return entries_; }
