@@ -23,8 +23,8 @@ def main():
         start = time.monotonic()
         scene = importlib.import_module(name).build()
         size = scene.save(os.path.join(arguments.out, name + ".glb"))
-        print(f"{name}: {size / 1e6:.2f} MB, {scene.triangle_count()} triangles, {len(scene.lights())} lights, "
-              f"{len(scene.nodes)} nodes, {time.monotonic() - start:.1f} s")
+        print(f"{name}: {size / 1e6:.2f} MB, {scene.triangle_count()} triangles, "
+              f"{len(scene.lights())} lights, {len(scene.nodes)} nodes, {time.monotonic() - start:.1f} s")
 
 
 if __name__ == "__main__":

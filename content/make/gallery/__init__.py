@@ -1,5 +1,5 @@
-"""Evening in a museum room: warm track spots on pictures and sculptures, a cool skylight and a video wall, tubes
-in a cove, globes over a reading corner, the last blue of dusk through a window."""
+"""Evening in a museum room: warm track spots on pictures and sculptures, a cool skylight and a video wall,
+tubes in a cove, globes over a reading corner, the last blue of dusk through a window."""
 import math
 
 from kit.gltf import Scene
@@ -25,7 +25,8 @@ TRACK_BACK, TRACK_FRONT = -1.9, 1.7
 def place_exhibits(scene):
     group = scene.node("exhibits")
     for name, key, width, height, centre, turn, frame in PICTURES:
-        scene.node(name, group, translate(*centre) @ rotate_y(turn), exhibits.picture(name, key, width, height, frame))
+        scene.node(name, group, translate(*centre) @ rotate_y(turn),
+                   exhibits.picture(name, key, width, height, frame))
     plinth = exhibits.plinth(0.46, 1.0)
     for name, sculpture, (x, z), turn in (
             ("Orbit (plaster)", exhibits.sculpture_orbit(M.PLASTER_CAST), (-0.85, -1.55), 0.5),
@@ -39,9 +40,12 @@ def place_exhibits(scene):
     scene.node("ropes", group, model=exhibits.rope_line([(-3.75, -2.85), (-2.35, -2.72), (-0.95, -2.85)]))
     table = scene.node("side table", group, translate(-4.9, 0, 3.1), exhibits.side_table())
     for k, (x, y, z) in enumerate(((-0.16, 2.05, 0.05), (0.2, 2.38, -0.16), (0.12, 1.78, 0.24))):
-        scene.node(f"globe {k + 1}", table, translate(x, y, z), L.globe_model(L.GLOBE, room.HEIGHT_M - y), L.GLOBE)
-    scene.node("fig", group, translate(5.3, 0, -3.35) @ rotate_y(0.8), fig("fig", M.LEAF, M.BARK, M.POT, M.SOIL, 1.95, 96))
-    scene.node("palm", group, translate(-5.35, 0, -0.1) @ rotate_y(2.0), palm("palm", M.PALM_LEAF, M.POT, M.SOIL, 1.75, 15))
+        scene.node(f"globe {k + 1}", table, translate(x, y, z), L.globe_model(L.GLOBE, room.HEIGHT_M - y),
+                   L.GLOBE)
+    scene.node("fig", group, translate(5.3, 0, -3.35) @ rotate_y(0.8),
+               fig("fig", M.LEAF, M.BARK, M.POT, M.SOIL, 1.95, 96))
+    scene.node("palm", group, translate(-5.35, 0, -0.1) @ rotate_y(2.0),
+               palm("palm", M.PALM_LEAF, M.POT, M.SOIL, 1.75, 15))
     scene.node("corridor picture", group, translate(-4.95, 1.6, -7.899),
                exhibits.picture("corridor picture", "marble", 0.9, 0.9, M.BLACK_FRAME))
 

@@ -1,4 +1,5 @@
-"""What is shown: framed pictures, sculptures of spheres and rings, a glass case; and the bench, ropes, plinths."""
+"""What is shown: framed pictures, sculptures of spheres and rings, a glass case; and the bench, ropes,
+plinths."""
 import math
 
 import numpy as np
@@ -23,15 +24,18 @@ def picture(name, key, width, height, frame):
                   translate(x, 0, depth / 2) @ rotate_z(math.pi / 2))
         model.add(frame, bevel_box(width + 2 * gap, face, depth, 0.003).with_uv_offset(0.2, side),
                   translate(0, y, depth / 2))
-    model.add(M.BLACK_METAL, bevel_box(width + 2 * gap, height + 2 * gap, 0.004, 0.001), translate(0, 0, 0.003))
-    model.add(M.PAPER, bevel_box(0.14, 0.09, 0.006, 0.0015), translate(width / 2 + 0.22, -height / 2 + 0.10, 0.003))
+    model.add(M.BLACK_METAL, bevel_box(width + 2 * gap, height + 2 * gap, 0.004, 0.001),
+              translate(0, 0, 0.003))
+    model.add(M.PAPER, bevel_box(0.14, 0.09, 0.006, 0.0015),
+              translate(width / 2 + 0.22, -height / 2 + 0.10, 0.003))
     return model
 
 
 def plinth(width, height):
     model = Model("plinth")
     model.add(M.RUBBER, bevel_box(width - 0.05, 0.04, width - 0.05, 0.002), translate(0, 0.02, 0))
-    model.add(M.PLINTH, bevel_box(width, height - 0.03, width, 0.004), translate(0, 0.03 + (height - 0.03) / 2, 0))
+    model.add(M.PLINTH, bevel_box(width, height - 0.03, width, 0.004),
+              translate(0, 0.03 + (height - 0.03) / 2, 0))
     return model
 
 
@@ -67,8 +71,8 @@ def sculpture_stack(material):
 def bowl_profile(radius, height, wall=0.006):
     t = np.linspace(0, 1, 12)
     outside = [(0, 0), (radius * 0.34, 0), (radius * 0.36, 0.008)]
-    outside += [(radius * (0.36 + 0.64 * math.sin(k * math.pi / 2)), 0.008 + (height - 0.008) * (1 - math.cos(
-        k * math.pi / 2)) ** 0.9) for k in t[1:]]
+    outside += [(radius * (0.36 + 0.64 * math.sin(a)), 0.008 + (height - 0.008) * (1 - math.cos(a)) ** 0.9)
+                for a in t[1:] * math.pi / 2]
     inside = [(r - wall, max(y, wall + 0.008)) for r, y in reversed(outside[3:])]
     return outside + inside + [(0, wall + 0.01)]
 
@@ -77,9 +81,11 @@ def vase_profile(radius, height):
     t = np.linspace(0, 1, 22)
     body = 0.42 + 0.58 * np.sin(np.pi * np.clip(t * 1.05, 0, 1)) ** 0.8 - 0.30 * t ** 3
     body = np.where(t > 0.88, body + (t - 0.88) * 1.6, body)
-    outside = [(0, 0), (radius * 0.40, 0)] + [(radius * b, height * (0.01 + 0.99 * k)) for b, k in zip(body, t)]
+    outside = [(0, 0), (radius * 0.40, 0)]
+    outside += [(radius * b, height * (0.01 + 0.99 * k)) for b, k in zip(body, t)]
     rim = outside[-1]
-    return outside + [(rim[0] - 0.004, rim[1] + 0.001), (rim[0] - 0.008, rim[1] - 0.004), (rim[0] - 0.012, height * 0.8)]
+    return outside + [(rim[0] - 0.004, rim[1] + 0.001), (rim[0] - 0.008, rim[1] - 0.004),
+                      (rim[0] - 0.012, height * 0.8)]
 
 
 def glass_case():
@@ -95,10 +101,10 @@ def glass_case():
                       translate(sx * (w / 2 - 0.006), (base + top) / 2, sz * (d / 2 - 0.006)))
     model.add(M.BRASS, bevel_box(w + 0.004, 0.05, d + 0.004, 0.003), translate(0, top + 0.025, 0))
     for sx in (-1, 1):
-        model.add(M.GLASS, quad(d - 0.02, top - base), translate(sx * (w / 2 - 0.003), (base + top) / 2, 0) @ rotate_y(
-            sx * math.pi / 2))
-        model.add(M.GLASS, quad(w - 0.02, top - base), translate(0, (base + top) / 2, sx * (d / 2 - 0.003)) @ rotate_y(
-            0 if sx > 0 else math.pi))
+        side = translate(sx * (w / 2 - 0.003), (base + top) / 2, 0) @ rotate_y(sx * math.pi / 2)
+        front = translate(0, (base + top) / 2, sx * (d / 2 - 0.003)) @ rotate_y(0 if sx > 0 else math.pi)
+        model.add(M.GLASS, quad(d - 0.02, top - base), side)
+        model.add(M.GLASS, quad(w - 0.02, top - base), front)
     model.add(M.VELVET, bevel_box(w - 0.03, 0.006, d - 0.03, 0.002), translate(0, base + 0.003, 0))
     for x, h in ((-0.29, 0.05), (0.02, 0.11), (0.31, 0.05)):
         model.add(M.PLINTH, bevel_box(0.2, h, 0.2, 0.003), translate(x, base + 0.006 + h / 2, -0.02))
@@ -106,7 +112,8 @@ def glass_case():
     model.add(M.OXBLOOD, lathe(vase_profile(0.085, 0.17), 48, 50), translate(0.02, base + 0.116, -0.02))
     model.add(M.CLAY, lathe(bowl_profile(0.10, 0.085), 48, 50), translate(0.31, base + 0.056, -0.02))
     for k, (x, z) in enumerate(((-0.13, 0.15), (0.16, 0.16), (0.22, 0.12))):
-        model.add(M.POLISHED_BRASS, sphere(0.022 - 0.004 * k, 24, 12), translate(x, base + 0.028 - 0.004 * k, z))
+        model.add(M.POLISHED_BRASS, sphere(0.022 - 0.004 * k, 24, 12),
+                  translate(x, base + 0.028 - 0.004 * k, z))
     return model
 
 
@@ -114,7 +121,8 @@ def bench():
     model = Model("bench")
     for k in range(5):
         z = (k - 2) * 0.098
-        model.add(M.OAK, bevel_box(2.0, 0.05, 0.09, 0.006).with_uv_offset(0.31 * k, 0.17 * k), translate(0, 0.425, z))
+        model.add(M.OAK, bevel_box(2.0, 0.05, 0.09, 0.006).with_uv_offset(0.31 * k, 0.17 * k),
+                  translate(0, 0.425, z))
     for x in (-0.75, 0.75):
         model.add(M.BLACK_METAL, bevel_box(0.05, 0.012, 0.46, 0.003), translate(x, 0.394, 0))
         model.add(M.BLACK_METAL, bevel_box(0.05, 0.012, 0.46, 0.003), translate(x, 0.006, 0))
@@ -127,9 +135,9 @@ def rope_line(posts):
     """Brass posts [(x, z)...] with a velvet rope sagging between them."""
     model = Model("ropes")
     for x, z in posts:
-        foot = lathe([(0, 0), (0.155, 0), (0.16, 0.006), (0.15, 0.016), (0.05, 0.03), (0.02, 0.05), (0.016, 0.08),
-                      (0.016, 0.90), (0.024, 0.905), (0.024, 0.94), (0.016, 0.945), (0.03, 0.975), (0.026, 0.995),
-                      (0, 1.005)], 40, 30)
+        foot = lathe([(0, 0), (0.155, 0), (0.16, 0.006), (0.15, 0.016), (0.05, 0.03), (0.02, 0.05),
+                      (0.016, 0.08), (0.016, 0.90), (0.024, 0.905), (0.024, 0.94), (0.016, 0.945),
+                      (0.03, 0.975), (0.026, 0.995), (0, 1.005)], 40, 30)
         model.add(M.POLISHED_BRASS, foot, translate(x, 0, z))
     for (x0, z0), (x1, z1) in zip(posts, posts[1:]):
         t = np.linspace(0, 1, 20)
@@ -142,12 +150,14 @@ def rope_line(posts):
 def side_table():
     """Small round table with books beside the pendants."""
     model = Model("side table")
-    model.add(M.OAK, lathe([(0, 0.70), (0.315, 0.70), (0.33, 0.71), (0.33, 0.722), (0.322, 0.73), (0, 0.73)], 56, 40))
+    model.add(M.OAK, lathe([(0, 0.70), (0.315, 0.70), (0.33, 0.71), (0.33, 0.722), (0.322, 0.73), (0, 0.73)],
+                           56, 40))
     model.add(M.BLACK_METAL, cylinder(0.022, 0.69, 20), translate(0, 0.012, 0))
     model.add(M.BLACK_METAL, cylinder(0.2, 0.014, 48))
     y = 0.73
     covers = (M.VELVET, M.PLINTH, M.BLACK_FRAME)
-    for k, (w, d, h, turn) in enumerate(((0.30, 0.24, 0.028, 0.2), (0.27, 0.22, 0.022, -0.12), (0.22, 0.16, 0.018, 0.5))):
+    for k, (w, d, h, turn) in enumerate(((0.30, 0.24, 0.028, 0.2), (0.27, 0.22, 0.022, -0.12),
+                                         (0.22, 0.16, 0.018, 0.5))):
         place = translate(-0.05, y + h / 2, 0.03) @ rotate_y(turn)
         model.add(covers[k], bevel_box(w, h, d, 0.002), place)
         model.add(M.PAPER, bevel_box(w - 0.006, h - 0.008, d + 0.001, 0.001), place @ translate(0.005, 0, 0))
@@ -164,5 +174,6 @@ def video_wall(light, emission):
     # One strength for all channels: the map holds the colours, its mean is the light's radiance.
     face = Material("screen", (0.01, 0.01, 0.01), 0.25, emission_nit=(max(nit),) * 3, emission_map=emission)
     model.add(face, quad(light.width_m, light.height_m, unit_uv=True), translate(0, 0, 0.056))
-    model.add(M.BLACK_METAL, bevel_box(light.width_m + 0.03, light.height_m + 0.03, 0.05, 0.004), translate(0, 0, 0.03))
+    model.add(M.BLACK_METAL, bevel_box(light.width_m + 0.03, light.height_m + 0.03, 0.05, 0.004),
+              translate(0, 0, 0.03))
     return model

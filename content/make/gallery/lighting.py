@@ -16,9 +16,10 @@ from . import materials as M
 
 VIDEO = paintings.waves()
 DEG = math.pi / 180
-# Gel on the track heads. The picture is balanced for 6500 K; this takes the lamps half-way to what an eye that has
+# Gel on the track heads. The picture is balanced for 6500 K; this takes the lamps half-way to what an eye
+# that has
 # settled into the room sees.
-GEL = (0.78, 0.92, 1.0)
+GEL = (0.64, 0.87, 1.0)
 
 
 def spot_light(name, lumen, outer_deg, kelvin=3000.0, inner=0.55, radius=0.035):
@@ -27,21 +28,25 @@ def spot_light(name, lumen, outer_deg, kelvin=3000.0, inner=0.55, radius=0.035):
 
 
 # Definitions are shared by all heads of a kind, as a lighting artist would set them up.
-PICTURE = spot_light("picture spot", 1000.0, 27)
+PICTURE = spot_light("picture spot", 900.0, 27)
 ACCENT = spot_light("accent spot", 900.0, 17, 2800.0)
 SOFT_ACCENT = spot_light("plant spot", 700.0, 24, 3000.0)
-WASHER = spot_light("wall washer", 1500.0, 52, 3500.0, 0.3, 0.05)
-SKYLIGHT = Light("skylight", "rect", 115.0, "nit", temperature_k=6500.0, width_m=room.SKYLIGHT_M[0],
+WASHER = spot_light("wall washer", 1500.0, 52, 4000.0, 0.3, 0.05)
+SKYLIGHT = Light("skylight", "rect", 150.0, "nit", temperature_k=6500.0, width_m=room.SKYLIGHT_M[0],
                  height_m=room.SKYLIGHT_M[1], range_m=16.0, ray_end_bias_m=0.02)
-FRAMER = Light("framing projector", "rect", 900.0, "lumen", color=GEL, temperature_k=3000.0, width_m=0.12, height_m=0.12,
+FRAMER = Light("framing projector", "rect", 900.0, "lumen", color=GEL, temperature_k=3000.0, width_m=0.12,
+               height_m=0.12,
                range_m=10.0, door_angle_rad=38 * DEG, door_length_m=0.12, ray_end_bias_m=0.05)
-COVE = Light("cove tube", "tube", 1100.0, "lumen", color=GEL, temperature_k=3000.0, radius_m=0.013, length_m=1.42, range_m=8.0,
+COVE = Light("cove tube", "tube", 1100.0, "lumen", color=GEL, temperature_k=3500.0, radius_m=0.013,
+             length_m=1.42, range_m=8.0,
              ray_end_bias_m=0.03)
-CASE = Light("case tube", "tube", 260.0, "lumen", temperature_k=3500.0, radius_m=0.006, length_m=0.8, range_m=3.0,
+CASE = Light("case tube", "tube", 260.0, "lumen", temperature_k=3500.0, radius_m=0.006, length_m=0.8,
+             range_m=3.0,
              ray_end_bias_m=0.015)
 DOWNLIGHT = Light("downlight", "disk", 420.0, "lumen", temperature_k=2900.0, width_m=0.16, range_m=9.0,
                   ray_end_bias_m=0.03)
-GLOBE = Light("globe", "sphere", 380.0, "lumen", temperature_k=2700.0, radius_m=0.11, range_m=9.0, ray_end_bias_m=0.03)
+GLOBE = Light("globe", "sphere", 380.0, "lumen", temperature_k=2700.0, radius_m=0.11, range_m=9.0,
+              ray_end_bias_m=0.03)
 DUSK = Light("dusk", "directional", 80.0, "lux", temperature_k=11000.0, angular_diameter_rad=0.05)
 
 
@@ -61,12 +66,14 @@ def spot_head(light, radius):
     model = Model(light.name + " head")
     r = radius + 0.008
     turn = rotate_x(math.pi / 2)  # the profile runs along +Z
-    body = lathe([(0, 0.165), (r * 0.7, 0.163), (r, 0.15), (r, -0.018), (r - 0.003, -0.02), (r - 0.006, -0.018),
+    body = lathe([(0, 0.165), (r * 0.7, 0.163), (r, 0.15), (r, -0.018), (r - 0.003, -0.02),
+                  (r - 0.006, -0.018),
                   (r - 0.006, 0.002)][::-1], 28, 40)
     model.add(M.BLACK_METAL, body, turn)
     model.add(glow(light.name + " lens", light), lathe([(0, -0.001), (r - 0.006, -0.001)], 24), turn)
     for k in range(4):  # cooling fins
-        model.add(M.BLACK_METAL, cylinder(r + 0.006, 0.004, 24, 0.001), turn @ translate(0, 0.105 + 0.012 * k, 0))
+        model.add(M.BLACK_METAL, cylinder(r + 0.006, 0.004, 24, 0.001),
+                  turn @ translate(0, 0.105 + 0.012 * k, 0))
     return model
 
 
@@ -94,8 +101,10 @@ class Rig:
         """A square projector with four doors; the doors' angle opens from the light's face."""
         if light not in self.heads:
             model, half = Model("framer head"), light.width_m / 2
-            model.add(M.BLACK_METAL, bevel_box(2 * half + 0.03, 2 * half + 0.03, 0.16, 0.005), translate(0, 0, 0.09))
-            model.add(glow("framer face", light), quad(2 * half, 2 * half), translate(0, 0, 0.004) @ rotate_y(math.pi))
+            model.add(M.BLACK_METAL, bevel_box(2 * half + 0.03, 2 * half + 0.03, 0.16, 0.005),
+                      translate(0, 0, 0.09))
+            model.add(glow("framer face", light), quad(2 * half, 2 * half),
+                      translate(0, 0, 0.004) @ rotate_y(math.pi))
             length, open_rad = light.door_length_m, light.door_angle_rad
             for k in range(4):
                 door = bevel_box(2 * half + 0.02, length, 0.003, 0.001)
@@ -135,7 +144,8 @@ def globe_model(light, drop):
     """Opal globe at the origin on a brass cap and a cord of `drop` metres."""
     model = Model("globe pendant")
     model.add(glow("opal glass", light), sphere(light.radius_m, 40, 20))
-    model.add(M.BRASS, lathe([(0, 0.100), (0.036, 0.100), (0.04, 0.104), (0.038, 0.125), (0.012, 0.14), (0, 0.142)], 28))
+    model.add(M.BRASS, lathe([(0, 0.100), (0.036, 0.100), (0.04, 0.104), (0.038, 0.125), (0.012, 0.14),
+                              (0, 0.142)], 28))
     model.add(M.BLACK_METAL, rod((0, 0.14, 0), (0, drop, 0), 0.003, 6))
     return model
 
@@ -147,9 +157,11 @@ def place_architectural(scene, group):
     scene.node("skylight", group, translate(0, room.SKYLIGHT_Y, 0) @ down, light=SKYLIGHT)
     tube = tube_model(COVE)
     for k in range(6):
-        scene.node(f"cove tube {k + 1}", group, translate(-3.35 + 1.68 * k, room.COVE_Y + 0.02, -3.82), tube, COVE)
+        scene.node(f"cove tube {k + 1}", group, translate(-3.35 + 1.68 * k, room.COVE_Y + 0.02, -3.82), tube,
+                   COVE)
     trim = downlight_model(DOWNLIGHT)
-    for k, (x, y, z) in enumerate(((-4.95, 2.695, -5.2), (-4.95, 2.695, -6.9), (4.9, 4.495, -3.0), (-5.0, 4.495, -0.2))):
+    for k, (x, y, z) in enumerate(((-4.95, 2.695, -5.2), (-4.95, 2.695, -6.9), (4.9, 4.495, -3.0),
+                                   (-5.0, 4.495, -0.2))):
         place = translate(x, y, z)
         scene.node(f"downlight trim {k + 1}", group, place, trim)
         scene.node(f"downlight {k + 1}", group, place @ down, light=DOWNLIGHT)

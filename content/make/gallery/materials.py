@@ -2,7 +2,8 @@
 from kit import paintings
 from kit.material import Material
 from kit.noise import normals_from_height
-from kit.surfaces import (brushed_metal, glazed_clay, leaf, plaster, polished_concrete, rough_concrete, soil, wood,
+from kit.surfaces import (brushed_metal, glazed_clay, leaf, plaster, polished_concrete, rough_concrete, soil,
+                          wood,
                           woven)
 
 FLOOR = polished_concrete()

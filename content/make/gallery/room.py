@@ -23,8 +23,10 @@ COVE_Y = 3.92
 
 
 def block(model, material, x0, x1, y0, y1, z0, z1, bevel=0.004):
-    """Box by its extents; textures are laid in world metres, so that neighbours do not show the same patch."""
-    mesh = bevel_box(x1 - x0, y1 - y0, z1 - z0, bevel).with_uv_offset(x0 * 0.73 + z0 * 0.41, y0 * 0.37 + z0 * 0.59)
+    """Box by its extents; textures are laid in world metres, so that neighbours do not show the same
+    patch."""
+    mesh = bevel_box(x1 - x0, y1 - y0, z1 - z0, bevel).with_uv_offset(x0 * 0.73 + z0 * 0.41,
+                                                                      y0 * 0.37 + z0 * 0.59)
     model.add(material, mesh, translate((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2))
 
 
@@ -34,7 +36,8 @@ def floor():
         for k in range(4):
             x, z = -6 + 2 * i, -4 + 2 * k
             level = r.uniform(-0.0006, 0.0006)
-            mesh = bevel_box(1.996, 0.2, 1.996, 0.003).with_uv_offset(x + r.uniform(0, 4), z + r.uniform(0, 4))
+            mesh = bevel_box(1.996, 0.2, 1.996, 0.003).with_uv_offset(x + r.uniform(0, 4),
+                                                                      z + r.uniform(0, 4))
             model.add(M.FLOOR, mesh, translate(x + 1, -0.1 + level, z + 1))
     for k in range(2):
         mesh = bevel_box(2.2, 0.2, 1.996, 0.003).with_uv_offset(1.3 * k, 0.7)
@@ -67,7 +70,8 @@ def walls():
     # Lining of the doorway.
     for x0, x1 in ((d0 - 0.01, d0 + 0.03), (d1 - 0.03, d1 + 0.01)):
         block(model, M.BLACK_METAL, x0, x1, 0, DOOR_HEIGHT_M, -4.23, -3.97, 0.003)
-    block(model, M.BLACK_METAL, d0 - 0.01, d1 + 0.01, DOOR_HEIGHT_M - 0.03, DOOR_HEIGHT_M + 0.01, -4.23, -3.97, 0.003)
+    block(model, M.BLACK_METAL, d0 - 0.01, d1 + 0.01, DOOR_HEIGHT_M - 0.03, DOOR_HEIGHT_M + 0.01, -4.23,
+          -3.97, 0.003)
     return model
 
 
@@ -94,7 +98,8 @@ def ceiling():
 
 def skylight_face(light):
     face = Material("skylight", (0, 0, 0), 1.0, emission_nit=light.face_nit())
-    return Model("skylight").add(face, quad(*SKYLIGHT_M), translate(0, SKYLIGHT_Y + 0.01, 0) @ rotate_x(math.pi / 2))
+    return Model("skylight").add(face, quad(*SKYLIGHT_M),
+                                 translate(0, SKYLIGHT_Y + 0.01, 0) @ rotate_x(math.pi / 2))
 
 
 def window():
@@ -122,8 +127,10 @@ def dusk_sky():
     picture = np.broadcast_to(sky, (size, size, 3)).copy()
     roofs = 0.16 + 0.05 * np.floor(3 * np.abs(np.sin(17 * np.floor(x * 13) / 13 + 1))) / 2
     picture[(y[..., 0] < roofs)] = (0.006, 0.008, 0.013)
-    face = Material("dusk sky", (0, 0, 0), 1.0, emission_nit=(26, 26, 26), emission_map=np.clip(picture, 0, 1))
-    return Model("dusk sky").add(face, quad(34, 10, unit_uv=True), translate(-16, 2.6, 1.8) @ rotate_y(math.pi / 2))
+    face = Material("dusk sky", (0, 0, 0), 1.0, emission_nit=(26, 26, 26),
+                    emission_map=np.clip(picture, 0, 1))
+    return Model("dusk sky").add(face, quad(34, 10, unit_uv=True),
+                                 translate(-16, 2.6, 1.8) @ rotate_y(math.pi / 2))
 
 
 def cove():

@@ -147,6 +147,9 @@ class _Writer:
 
     def primitive(self, material, meshes):
         mesh = merge(meshes)
+        p = np.round(mesh.positions * 65536)[mesh.triangles]
+        area = np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+        mesh.triangles = mesh.triangles[area > 0]  # slivers that rounding has closed
         mesh.uvs = mesh.uvs / material.tile_m
         # Whole repeats carry no information; near the origin UVs keep their precision.
         mesh.uvs -= np.floor(mesh.uvs.min(axis=0) + 1e-6)
@@ -212,7 +215,8 @@ class _Writer:
         nodes, j = self.scene.nodes, self.json
         index = {n: i for i, n in enumerate(nodes)}
         j["nodes"] = [self.node(n, index) for n in nodes]
-        j["scenes"] = [{"name": self.scene.name, "nodes": [i for i, n in enumerate(nodes) if n.parent is None],
+        j["scenes"] = [{"name": self.scene.name,
+                        "nodes": [i for i, n in enumerate(nodes) if n.parent is None],
                         "extras": {"kilolux": {"exposureEv100": self.scene.exposure_ev100}}}]
         extensions = {}
         if self.punctual:

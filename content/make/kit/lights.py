@@ -1,7 +1,8 @@
 """Lights as the tool's document knows them, and how each is written to glTF: KHR_lights_punctual for points,
 spots and suns, EXT_lights_area for rectangles and disks, and node extras under `kilolux` for what those
-extensions lack. Tubes, which no extension has, are points to other readers. Units and the emitters' radiances follow the
-renderer's light model: Lambert sources of constant radiance, lumens of a spot are what leaves its cone."""
+extensions lack. Tubes, which no extension has, are points to other readers. Units and the emitters'
+radiances follow the renderer's light model: Lambert sources of constant radiance, lumens of a spot are what
+leaves its cone."""
 import math
 from dataclasses import dataclass
 from typing import Optional

@@ -24,14 +24,17 @@ def fields(size=512, seed=1):
     wobble = 0.012 * fbm(size, 6, 4, seed)
     cloud = fbm(size, (5, 8), 5, seed + 1)
     picture = np.broadcast_to((0.30, 0.045, 0.025), (size, size, 3)) * (1 + 0.15 * cloud)[..., None]
-    for k, (top, bottom, color) in enumerate(((0.07, 0.43, (0.80, 0.33, 0.06)), (0.47, 0.62, (0.05, 0.05, 0.12)),
+    for k, (top, bottom, color) in enumerate(((0.07, 0.43, (0.80, 0.33, 0.06)),
+                                              (0.47, 0.62, (0.05, 0.05, 0.12)),
                                               (0.66, 0.93, (0.50, 0.08, 0.05)))):
         edge = 0.018
-        mask = (smoothstep(0.07 - edge, 0.07 + edge, x + wobble) * smoothstep(0.93 + edge, 0.93 - edge, x + wobble) *
+        mask = (smoothstep(0.07 - edge, 0.07 + edge, x + wobble) *
+                smoothstep(0.93 + edge, 0.93 - edge, x + wobble) *
                 smoothstep(top - edge, top + edge, y + wobble) *
                 smoothstep(bottom + edge, bottom - edge, y - wobble))
         brush = fbm(size, (3, 24), 4, seed + 10 + k)
-        picture = mix(picture, np.asarray(color) * (1 + 0.22 * brush[..., None] + 0.15 * cloud[..., None]), mask * 0.94)
+        picture = mix(picture, np.asarray(color) * (1 + 0.22 * brush[..., None] + 0.15 * cloud[..., None]),
+                      mask * 0.94)
     return np.clip(picture, 0.01, 0.9), _canvas(size, seed)
 
 
@@ -42,7 +45,8 @@ def circles(size=512, seed=2, aspect=1.0):
     r = rng(seed)
     grain = fbm(size, 30, 3, seed)
     picture = np.broadcast_to((0.74, 0.70, 0.60), (size, size, 3)) * (1 + 0.05 * grain[..., None])
-    palette = [(0.03, 0.12, 0.32), (0.72, 0.12, 0.05), (0.85, 0.52, 0.06), (0.04, 0.28, 0.27), (0.06, 0.05, 0.06),
+    palette = [(0.03, 0.12, 0.32), (0.72, 0.12, 0.05), (0.85, 0.52, 0.06), (0.04, 0.28, 0.27),
+               (0.06, 0.05, 0.06),
                (0.60, 0.25, 0.30)]
     for k in range(13):
         cx, cy, radius = r.uniform(0.1, 0.9) * aspect, r.uniform(0.1, 0.9), r.uniform(0.05, 0.26)
@@ -54,7 +58,8 @@ def circles(size=512, seed=2, aspect=1.0):
             turn = r.uniform(0, 6.28)
             mask = mask * smoothstep(-0.002, 0.002, (x - cx) * math.cos(turn) + (y - cy) * math.sin(turn))
         color = np.asarray(palette[k % len(palette)])
-        picture = mix(picture, mix(color * np.ones(3), picture * color * 1.6, np.full((size, size), 0.35)), mask)
+        picture = mix(picture, mix(color * np.ones(3), picture * color * 1.6, np.full((size, size), 0.35)),
+                      mask)
     for _ in range(7):
         turn, off = r.uniform(0, math.pi), r.uniform(0.2, 0.8)
         d = np.abs((x - 0.5 * aspect) * math.cos(turn) + (y - 0.5) * math.sin(turn) + off - 0.5)

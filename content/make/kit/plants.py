@@ -3,10 +3,10 @@ import math
 
 import numpy as np
 
-from .mesh import Mesh, Model
+from .mesh import Model
 from .noise import rng
 from .shapes import lathe, surface, sweep
-from .transform import identity, rotate_x, rotate_y, rotate_z, scale, translate
+from .transform import rotate_x, rotate_y, rotate_z, translate
 
 
 def leaf_mesh(length, width, fold=0.25, droop=0.5, ripple=0.0, across=4, along=8, blunt=1.0, phase=0.0):
@@ -29,7 +29,8 @@ def leaf_mesh(length, width, fold=0.25, droop=0.5, ripple=0.0, across=4, along=8
 
 def pot(model, material, soil_material, radius, height):
     r = radius
-    profile = [(0, 0), (r * 0.72, 0), (r * 0.76, 0.006), (r * 0.97, height * 0.97), (r, height * 0.985), (r, height),
+    profile = [(0, 0), (r * 0.72, 0), (r * 0.76, 0.006), (r * 0.97, height * 0.97), (r, height * 0.985),
+               (r, height),
                (r - 0.012, height), (r - 0.018, height - 0.008), (r * 0.9, height * 0.86)]
     model.add(material, lathe(profile, 40, 40))
     model.add(soil_material, lathe([(r * 0.905, height * 0.87), (0, height * 0.90)], 24))
@@ -43,7 +44,8 @@ def fig(name, leaf_material, bark, pot_material, soil_material, height=1.7, leav
         lean = r.uniform(0.10, 0.26)
         top = height * (1.0 - 0.14 * branch)
         t = np.linspace(0, 1, 9)
-        path = np.stack([np.cos(turn) * lean * t ** 1.5 + 0.02 * np.sin(6 * t + branch), 0.28 + (top - 0.28) * t,
+        path = np.stack([np.cos(turn) * lean * t ** 1.5 + 0.02 * np.sin(6 * t + branch),
+                         0.28 + (top - 0.28) * t,
                          np.sin(turn) * lean * t ** 1.5 + 0.02 * np.cos(5 * t + branch)], -1)
         path[0, :] = (0.03 * math.cos(turn), 0.28, 0.03 * math.sin(turn))
         model.add(bark, sweep(path, np.linspace(0.016, 0.006, 9), 7))
@@ -54,8 +56,8 @@ def fig(name, leaf_material, bark, pot_material, soil_material, height=1.7, leav
             mesh = leaf_mesh(0.27 * size, 0.17 * size, 0.22, r.uniform(0.5, 1.2), 0.25, blunt=1.35,
                              phase=r.uniform(0, 6))
             pitch = -r.uniform(0.1, 0.6) - 0.5 * f ** 4
-            m = (translate(*p) @ rotate_y(k * 2.39996 + turn) @ rotate_x(pitch) @ rotate_z(r.uniform(-0.3, 0.3)) @
-                 translate(0, 0, 0.012))
+            m = (translate(*p) @ rotate_y(k * 2.39996 + turn) @ rotate_x(pitch) @
+                 rotate_z(r.uniform(-0.3, 0.3)) @ translate(0, 0, 0.012))
             model.add(leaf_material, mesh, m)
     return model
 
@@ -77,8 +79,10 @@ def palm(name, leaf_material, pot_material, soil_material, height=1.5, stems=13,
         tube.uvs[:] = (0.5, 0.5)
         model.add(stalk, tube)
         size = r.uniform(0.8, 1.1)
-        blade = leaf_mesh(0.55 * size, 0.19 * size, 0.5, r.uniform(0.7, 1.3), 0.12, along=12, phase=r.uniform(0, 6))
+        blade = leaf_mesh(0.55 * size, 0.19 * size, 0.5, r.uniform(0.7, 1.3), 0.12, along=12,
+                          phase=r.uniform(0, 6))
         pitch = -0.75 + 0.5 * inner
-        m = translate(*path[-1]) @ rotate_y(turn + math.pi / 2) @ rotate_x(pitch) @ rotate_z(r.uniform(-0.25, 0.25))
+        m = (translate(*path[-1]) @ rotate_y(turn + math.pi / 2) @ rotate_x(pitch) @
+             rotate_z(r.uniform(-0.25, 0.25)))
         model.add(leaf_material, blade, m)
     return model

@@ -14,7 +14,8 @@ def bevel_box(sx, sy, sz, bevel=0.004):
     half = np.array([sx, sy, sz]) / 2
     b = min(bevel, 0.49 * min(sx, sy, sz))
     positions, normals, uvs, index = [], [], [], {}
-    axes = {0: (2, 1, -1, 1), 1: (0, 2, 1, -1), 2: (0, 1, 1, 1)}  # face axis -> u axis, v axis and their signs
+    axes = {0: (2, 1, -1, 1), 1: (0, 2, 1, -1),
+            2: (0, 1, 1, 1)}  # face axis -> u axis, v axis and their signs
     for axis in range(3):
         for side in (-1, 1):
             for corner in np.ndindex(2, 2, 2):
@@ -29,7 +30,8 @@ def bevel_box(sx, sy, sz, bevel=0.004):
                 index[(axis, tuple(s))] = len(positions)
                 positions.append(p)
                 normals.append(n)
-                uvs.append((p[ua] * us * side if axis != 1 else p[ua], -p[va] * vs if axis != 1 else p[va] * side))
+                uvs.append((p[ua] * us * side if axis != 1 else p[ua],
+                            -p[va] * vs if axis != 1 else p[va] * side))
     triangles = []
 
     def polygon(ids):
@@ -117,9 +119,11 @@ def lathe(profile, segments=24, crease_deg=50.0, unit_uv=False, squash=None):
         n2 /= np.linalg.norm(n2, axis=1, keepdims=True)
         v = arc[start:k + 1] / (arc[-1] if unit_uv else 1.0)
         c, s = np.cos(theta)[:, None], np.sin(theta)[:, None]
-        p = np.stack([run[:, 0] * c, np.broadcast_to(run[:, 1], (segments + 1, len(run))), run[:, 0] * -s], -1)
+        p = np.stack([run[:, 0] * c, np.broadcast_to(run[:, 1], (segments + 1, len(run))), run[:, 0] * -s],
+                     -1)
         n = np.stack([n2[:, 0] * c, np.broadcast_to(n2[:, 1], (segments + 1, len(run))), n2[:, 0] * -s], -1)
-        uv = np.stack(np.broadcast_arrays((theta / (2 * math.pi) * turns)[:, None], 1.0 - v if unit_uv else -v),
+        uv = np.stack(np.broadcast_arrays((theta / (2 * math.pi) * turns)[:, None],
+                                          1.0 - v if unit_uv else -v),
                       -1)
         pieces.append(surface(p, uv, normals=n))
         start = k

@@ -1,4 +1,5 @@
-"""Materials with procedural textures. Albedos follow measured values: plaster 0.75, concrete 0.35, oak 0.3."""
+"""Materials with procedural textures. Albedos follow measured values: plaster 0.75, concrete 0.35, oak
+0.3."""
 import numpy as np
 
 from .material import Material
@@ -10,7 +11,7 @@ def tinted(value, color):
     return np.clip(value, 0, 1)[..., None] * np.asarray(color)
 
 
-def polished_concrete(name="polished concrete", size=1024, seed=11, albedo=0.35):
+def polished_concrete(name="polished concrete", size=1024, seed=11, albedo=0.38):
     clouds = fbm(size, 5, 5, seed)
     patches = smoothstep(-0.25, 0.35, fbm(size, 3, 3, seed + 1))
     first, _, own = worley(size, 90, seed + 2)
@@ -18,7 +19,7 @@ def polished_concrete(name="polished concrete", size=1024, seed=11, albedo=0.35)
     value = albedo * (1 + 0.22 * clouds + 0.10 * (patches - 0.5)) + 0.05 * stones * (own - 0.75) * 4
     warm = mix((1.03, 1.0, 0.95), (0.97, 1.0, 1.02), patches)
     # Traffic wears the polish off in clouds: the highlight streaks break up instead of being a mirror's.
-    rough = 0.21 + 0.10 * smoothstep(-0.2, 0.5, fbm(size, 4, 5, seed + 3)) + 0.03 * stones
+    rough = 0.17 + 0.10 * smoothstep(-0.2, 0.5, fbm(size, 4, 5, seed + 3)) + 0.03 * stones
     height = 0.0011 * perlin(size, 6, seed + 4) + 0.00012 * fbm(size, 40, 3, seed + 5)
     return Material(name, (1, 1, 1), color_map=np.clip(value, 0, 1)[..., None] * warm, roughness_map=rough,
                     normal_map=normals_from_height(height, 4.0), tile_m=4.0)
@@ -30,7 +31,8 @@ def rough_concrete(name="concrete", size=512, seed=21, albedo=0.33):
     pores = smoothstep(0.30, 0.12, first) * (own > 0.9)
     value = albedo * (1 + 0.35 * clouds) * (1 - 0.45 * pores)
     height = 0.0008 * clouds - 0.0025 * pores + 0.0003 * fbm(size, 60, 2, seed + 2)
-    return Material(name, (1, 1, 1), color_map=tinted(value, (1.0, 0.98, 0.94)), roughness_map=0.85 + 0.1 * clouds,
+    return Material(name, (1, 1, 1), color_map=tinted(value, (1.0, 0.98, 0.94)),
+                    roughness_map=0.85 + 0.1 * clouds,
                     normal_map=normals_from_height(height, 2.0), tile_m=2.0)
 
 
@@ -53,7 +55,8 @@ def wood(name, color=(0.40, 0.25, 0.13), size=512, seed=41, roughness=0.42, cont
     value = 1 + contrast * (0.55 * (rings - 0.5) + 0.5 * streak) - 0.5 * pores
     red = mix((1.0, 1.0, 1.0), (1.08, 0.97, 0.86), rings)
     height = -0.0004 * pores - 0.00012 * rings
-    return Material(name, (1, 1, 1), color_map=np.clip(tinted(np.clip(value, 0.2, 1.6) / 1.6, color) * 1.6 * red, 0, 1),
+    return Material(name, (1, 1, 1),
+                    color_map=np.clip(tinted(np.clip(value, 0.2, 1.6) / 1.6, color) * 1.6 * red, 0, 1),
                     roughness_map=np.clip(roughness + 0.12 * pores - 0.05 * streak, 0, 1),
                     normal_map=normals_from_height(height, tile_m), tile_m=tile_m)
 
@@ -97,7 +100,8 @@ def leaf(name, color=(0.10, 0.22, 0.06), size=256, seed=81):
     side = np.abs(u - 0.5)
     ribs = np.abs(((v + side * 0.9) * 9) % 1 - 0.5) * 2
     vein = np.maximum(smoothstep(0.22, 0.0, ribs) * 0.6, smoothstep(0.035, 0.012, side))
-    value = mix(color, np.asarray(color) * (1.7, 1.5, 1.3), vein) * (1 + 0.25 * fbm(size, 5, 4, seed))[..., None]
+    value = mix(color, np.asarray(color) * (1.7, 1.5, 1.3), vein) * (1 + 0.25 * fbm(size, 5, 4, seed))[...,
+        None]
     height = -0.0015 * vein + 0.0007 * np.cos(ribs * np.pi)
     return Material(name, (1, 1, 1), color_map=np.clip(value, 0, 1), roughness=0.38,
                     normal_map=normals_from_height(height, 0.2), tile_m=1.0, double_sided=True)

@@ -1,4 +1,5 @@
-"""A stroke font: letters as polylines in a box 0..1 (x right, y up), painted as masks or swept as neon tubes."""
+"""A stroke font: letters as polylines in a box 0..1 (x right, y up), painted as masks or swept as neon
+tubes."""
 import math
 
 import numpy as np
@@ -26,7 +27,8 @@ GLYPHS = {
     "N": [[(0, 0), (0, 1), (1, 0), (1, 1)]],
     "O": [_arc(0.5, 0.5, 0.5, 0.5, 0, 360, 21)],
     "P": [[(0, 0), (0, 1), (0.6, 1)] + _arc(0.62, 0.74, 0.36, 0.26, 90, -90) + [(0, 0.48)]],
-    "R": [[(0, 0), (0, 1), (0.6, 1)] + _arc(0.62, 0.74, 0.36, 0.26, 90, -90) + [(0, 0.48)], [(0.45, 0.48), (1, 0)]],
+    "R": [[(0, 0), (0, 1), (0.6, 1)] + _arc(0.62, 0.74, 0.36, 0.26, 90, -90) + [(0, 0.48)],
+          [(0.45, 0.48), (1, 0)]],
     "S": [_arc(0.5, 0.75, 0.45, 0.25, 30, 270, 10) + _arc(0.5, 0.25, 0.47, 0.25, 90, -150, 10)],
     "T": [[(0, 1), (1, 1)], [(0.5, 1), (0.5, 0)]],
     "U": [[(0, 1), (0, 0.4)] + _arc(0.5, 0.4, 0.5, 0.4, 180, 360) + [(1, 1)]],
@@ -42,7 +44,8 @@ GLYPHS = {
 
 
 def strokes(word, width=0.62, gap=0.28, vertical=False):
-    """Polylines of a word with letters 1 high and its extent (width, height); vertical words run downwards."""
+    """Polylines of a word with letters 1 high and its extent (width, height); vertical words run
+    downwards."""
     lines, x, y = [], 0.0, 0.0
     for letter in word:
         narrow = width * (0.35 if letter in "I!" and not vertical else 1.0)

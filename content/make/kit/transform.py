@@ -58,7 +58,8 @@ def look_at(eye, target, up=(0, 1, 0)):
 
 
 def align_x(start, end):
-    """Places a part built along local X, centred, between two points; local Y is kept as upright as it can."""
+    """Places a part built along local X, centred, between two points; local Y is kept as upright as it
+    can."""
     start, end = np.asarray(start, float), np.asarray(end, float)
     x = end - start
     x /= np.linalg.norm(x)

@@ -1,4 +1,5 @@
-"""Lamps of the market: their light definitions and the things that hold them. Faces show the light's radiance."""
+"""Lamps of the market: their light definitions and the things that hold them. Faces show the light's
+radiance."""
 import math
 
 import numpy as np
@@ -7,7 +8,7 @@ from kit.lights import Light
 from kit.material import Material
 from kit.mesh import Model
 from kit.noise import smoothstep
-from kit.shapes import bevel_box, cylinder, lathe, quad, rod, sphere
+from kit.shapes import bar, bevel_box, cylinder, lathe, quad, rod, sphere
 from kit.transform import rotate_x, rotate_y, rotate_z, translate
 
 from . import materials as M
@@ -22,7 +23,8 @@ def _range(metres):
 
 
 def lantern_light(name, color, lumen, radius, reach):
-    return Light(name, "sphere", lumen, "lumen", color=color, range_m=_range(reach), radius_m=radius, ray_end_bias_m=0.06)
+    return Light(name, "sphere", lumen, "lumen", color=color, range_m=_range(reach), radius_m=radius,
+                 ray_end_bias_m=0.06)
 
 
 # Paper tints the lamp inside; lumens are what would leave white paper.
@@ -31,7 +33,8 @@ WARM = lantern_light("warm lantern", (1.0, 0.50, 0.18), 50.0, 0.20, 5.2)
 AMBER = lantern_light("amber lantern", (1.0, 0.36, 0.08), 45.0, 0.15, 4.8)
 BULB = Light("bulb", "sphere", 600.0, "lumen", temperature_k=2700.0, range_m=_range(4.6), radius_m=0.04,
              ray_end_bias_m=0.025)
-FAIRY = Light("string bulb", "sphere", 115.0, "lumen", temperature_k=2500.0, range_m=_range(4.4), radius_m=0.028,
+FAIRY = Light("string bulb", "sphere", 115.0, "lumen", temperature_k=2500.0, range_m=_range(4.4),
+              radius_m=0.028,
               ray_end_bias_m=0.02)
 SHADE = Light("shaded lamp", "spot", 800.0, "lumen", temperature_k=3000.0, range_m=_range(4.8), radius_m=0.04,
               inner_rad=30 * DEG, outer_rad=58 * DEG, ray_end_bias_m=0.03)
@@ -44,7 +47,8 @@ NEON_COLORS = {"pink": (1.0, 0.07, 0.30), "cyan": (0.06, 0.72, 1.0), "gold": (1.
 
 def neon_light(color, length):
     """120 lm/m before the glass's colour."""
-    return Light(f"neon {color} {length:.2f} m", "tube", round(120.0 * length, 2), "lumen", color=NEON_COLORS[color],
+    return Light(f"neon {color} {length:.2f} m", "tube", round(120.0 * length, 2), "lumen",
+                 color=NEON_COLORS[color],
                  range_m=_range(4.6), radius_m=0.018, length_m=length, ray_end_bias_m=0.02)
 
 
@@ -65,15 +69,18 @@ def lantern(name, light, width, height, ribs, flat, near):
     model = Model(name)
     t = np.linspace(-1, 1, 8 if near else 6)
     body = width * (flat + (1 - flat) * np.sqrt(np.maximum(0, 1 - np.abs(t) ** 2.4)))
-    paper = Material(name + " paper", tuple(0.45 * c for c in light.color), 0.75, emission_nit=light.face_nit(1.1),
+    paper = Material(name + " paper", tuple(0.45 * c for c in light.color), 0.75,
+                     emission_nit=light.face_nit(1.1),
                      emission_map=paper_picture(ribs), double_sided=False)
     model.add(paper, lathe(np.stack([body, t * height], -1), 14 if near else 9, 180, unit_uv=True))
     cap = width * flat * 1.06
     for sign in (-1, 1):
-        model.add(M.IRON, lathe([(cap, -0.012), (cap, 0.012), (0, 0.014)] if sign > 0 else [(0, -0.012), (cap, -0.012), (cap, 0.012)], 8 if near else 5, 40),
+        model.add(M.IRON, lathe([(cap, -0.012), (cap, 0.012), (0, 0.014)] if sign > 0
+                                else [(0, -0.012), (cap, -0.012), (cap, 0.012)], 8 if near else 5, 40),
                   translate(0, sign * height, 0))
     model.add(M.CABLE, rod((0, height, 0), (0, height + 0.10, 0), 0.004, 4))
-    model.add(M.SCARVES[1], lathe([(0, -0.16), (0.016, -0.16), (0.012, -0.02)], 5, 60), translate(0, -height, 0))
+    model.add(M.SCARVES[1], lathe([(0, -0.16), (0.016, -0.16), (0.012, -0.02)], 5, 60),
+              translate(0, -height, 0))
     return model
 
 
@@ -91,7 +98,7 @@ def bulb(name, light, cord, detail=(10, 6)):
 def shaded_lamp(light, cord):
     """Enamel shade over a bulb; looks down (-Y in this model, the light's node turns by itself)."""
     model = Model("shaded lamp")
-    model.add(M.ENAMEL, lathe([(0.17, -0.03), (0.165, -0.02), (0.06, 0.07), (0.04, 0.12)], 16, 60))
+    model.add(M.ENAMEL, lathe([(0.17, -0.03), (0.165, -0.02), (0.06, 0.07), (0.04, 0.12)], 12, 60))
     model.add(glow("shaded bulb", light), sphere(light.radius_m * 0.98, 8, 5))
     model.add(M.CABLE, rod((0, 0.12, 0), (0, cord, 0), 0.005, 5))
     return model
@@ -101,8 +108,8 @@ def panel_lamp(light, cord):
     """Round luminous panel that looks down."""
     r = light.width_m / 2
     model = Model("panel lamp")
-    model.add(M.IRON, lathe([(r, -0.004), (r + 0.012, -0.004), (r + 0.012, 0.02), (0, 0.045)], 24, 40))
-    model.add(glow("panel face", light), lathe([(0, 0.004), (r, 0.004)], 24))
+    model.add(M.IRON, lathe([(r, -0.004), (r + 0.012, -0.004), (r + 0.012, 0.02), (0, 0.045)], 14, 40))
+    model.add(glow("panel face", light), lathe([(0, 0.004), (r, 0.004)], 14))
     model.add(M.CABLE, rod((0, 0.04, 0), (0, cord, 0), 0.005, 5))
     return model
 
@@ -153,16 +160,26 @@ class Signs:
             name = f"sign {word.lower()}{' blade' if vertical else ''}"
             light = Light(name, "rect", nit, "nit", color=color, range_m=_range(5.2), width_m=round(width, 4),
                           height_m=round(height, 4), ray_end_bias_m=0.02)
-            face = Material(name + " face", (0.02, 0.02, 0.02), 0.25, emission_nit=(SIGN_NIT,) * 3, emission_map=picture)
+            face = Material(name + " face", (0.02, 0.02, 0.02), 0.25, emission_nit=(SIGN_NIT,) * 3,
+                            emission_map=picture)
             model = Model(name)
             sides = (0.0, math.pi) if vertical else (0.0,)
             depth = 0.12 if vertical else 0.09
             model.add(M.IRON, bevel_box(width + 0.05, height + 0.05, depth, 0.006))
             for turn in sides:
-                model.add(face, quad(width, height, unit_uv=True), rotate_y(turn) @ translate(0, 0, depth / 2 + 0.004))
+                model.add(face, quad(width, height, unit_uv=True),
+                          rotate_y(turn) @ translate(0, 0, depth / 2 + 0.004))
             self.made[key] = (model, light, (width, height, depth))
         return self.made[key]
 
 
+def sign_arm():
+    """Post and arm that carry a blade sign; the sign hangs at z = 0.33."""
+    model = Model("sign arm")
+    model.add(M.IRON, bar((0, 0.0, -0.95), (0, 0.0, 0.3), 0.03, 0.03))
+    return model.add(M.IRON, bar((0, -2.9, -0.03), (0, 0.7, -0.03), 0.04, 0.04))
+
+
 def down():
+    """Turns a light that looks along -Z to look at the ground."""
     return rotate_x(-math.pi / 2)

@@ -1,6 +1,6 @@
-"""What the stalls sell, each a model in the stall's frame: the counter's top is y = 0.92 between x = -1.25 and
-1.25, z = 0.05 and 0.75; the customer stands at +Z. `detail` is 2 beside the close cameras, 1 along the first half
-of the lanes, 0 beyond."""
+"""What the stalls sell, each a model in the stall's frame: the counter's top is y = 0.92 between x = -1.25
+and 1.25, z = 0.05 and 0.75; the customer stands at +Z. `detail` is 2 beside the close cameras, 1 along the
+first half of the lanes, 0 beyond."""
 import math
 
 import numpy as np
@@ -23,9 +23,11 @@ def crate(model, matrix, width=0.52, depth=0.36, height=0.16, seed=0, slats=2, b
         model.add(M.CRATE, bevel_box(0.02, height, depth, bevel).with_uv_offset(r.random(), r.random()),
                   matrix @ translate(s * (width / 2 - 0.01), height / 2, 0))
         for k in range(slats):
-            slat = bevel_box(width, height * 0.82 / slats - 0.006, 0.012, bevel).with_uv_offset(r.random(), r.random())
-            model.add(M.CRATE, slat, matrix @ translate(0, height * (0.08 + 0.86 * (k + 0.5) / slats), s * depth / 2) @ rotate_z(
-                r.uniform(-0.008, 0.008)))
+            slat = bevel_box(width, height * 0.82 / slats - 0.006, 0.012, bevel)
+            slat = slat.with_uv_offset(r.random(), r.random())
+            y = height * (0.08 + 0.86 * (k + 0.5) / slats)
+            place = translate(0, y, s * depth / 2) @ rotate_z(r.uniform(-0.008, 0.008))
+            model.add(M.CRATE, slat, matrix @ place)
 
 
 FRUIT_SHAPE = {"orange": (0.040, 0.94), "apple": (0.041, 0.88), "lime": (0.034, 0.92), "lemon": (0.036, 1.25),
@@ -49,10 +51,13 @@ def fruit_crate(model, kind, matrix, seed, detail):
             z = (k - (nz - 1) / 2) * step_z
             y = 0.12 + radius * 0.55 + 0.035 * math.cos(x * 5) * math.cos(z * 6) + r.uniform(-0.006, 0.008)
             size = r.uniform(0.9, 1.08)
-            turn = rotate_z(math.pi / 2 + r.uniform(-0.2, 0.2)) if long else rotate_x(r.uniform(-0.5, 0.5)) @ rotate_z(
-                r.uniform(-0.5, 0.5))
-            model.add(material, body, matrix @ translate(x, y, z) @ rotate_y(r.uniform(-0.15, 0.15) if long else r.uniform(
-                0, 6.28)) @ turn @ scale(size, size * stretch, size))
+            if long:
+                lie, turn = rotate_z(math.pi / 2 + r.uniform(-0.2, 0.2)), r.uniform(-0.15, 0.15)
+            else:
+                lie, turn = rotate_x(r.uniform(-0.5, 0.5)) @ rotate_z(r.uniform(-0.5, 0.5)), r.uniform(0,
+                    6.28)
+            place = translate(x, y, z) @ rotate_y(turn) @ lie @ scale(size, size * stretch, size)
+            model.add(material, body, matrix @ place)
 
 
 def fruit(name, kinds, seed, detail):
@@ -60,19 +65,23 @@ def fruit(name, kinds, seed, detail):
     model = Model(name)
     for k in range(4):
         x = (k - 1.5) * 0.62
-        fruit_crate(model, kinds[k % len(kinds)], translate(x, TOP_Y + 0.07, 0.40) @ rotate_x(0.22), seed + k, detail)
+        fruit_crate(model, kinds[k % len(kinds)], translate(x, TOP_Y + 0.07, 0.40) @ rotate_x(0.22), seed + k,
+                    detail)
         if detail == 2 and k != 2:
-            fruit_crate(model, kinds[(k + 2) % len(kinds)], translate(x, 0.48, 0.98) @ rotate_x(0.30), seed + 10 + k, detail)
-            model.add(M.CRATE, bevel_box(0.5, 0.40, 0.30, 0.006).with_uv_offset(0.3 * k, 0), translate(x, 0.2, 0.99))
-    for k in range(7):  # leaves and a hanging bunch
-        model.add(M.LEAF, leaf_mesh(0.22, 0.12, across=2, along=5), translate(-1.15 + 0.38 * k, TOP_Y + 0.16, 0.16) @ rotate_y(
-            2.4 * k) @ rotate_x(-0.8))
+            fruit_crate(model, kinds[(k + 2) % len(kinds)], translate(x, 0.48, 0.98) @ rotate_x(0.30),
+                        seed + 10 + k, detail)
+            model.add(M.CRATE, bevel_box(0.5, 0.40, 0.30, 0.006).with_uv_offset(0.3 * k, 0),
+                      translate(x, 0.2, 0.99))
+    for k in range(7):
+        place = translate(-1.15 + 0.38 * k, TOP_Y + 0.16, 0.16) @ rotate_y(2.4 * k) @ rotate_x(-0.8)
+        model.add(M.LEAF, leaf_mesh(0.22, 0.12, across=2, along=5), place)
     return model
 
 
-BOTTLE = [(0, 0), (0.034, 0), (0.038, 0.006), (0.038, 0.15), (0.030, 0.185), (0.014, 0.22), (0.013, 0.275), (0.015, 0.28),
-          (0.0, 0.283)]
-FLASK = [(0, 0), (0.045, 0), (0.05, 0.01), (0.05, 0.09), (0.035, 0.125), (0.014, 0.145), (0.014, 0.19), (0, 0.193)]
+BOTTLE = [(0, 0), (0.034, 0), (0.038, 0.006), (0.038, 0.15), (0.030, 0.185), (0.014, 0.22), (0.013, 0.275),
+          (0.015, 0.28), (0.0, 0.283)]
+FLASK = [(0, 0), (0.045, 0), (0.05, 0.01), (0.05, 0.09), (0.035, 0.125), (0.014, 0.145), (0.014, 0.19),
+         (0, 0.193)]
 JAR = [(0, 0), (0.052, 0), (0.058, 0.01), (0.058, 0.12), (0.048, 0.14), (0.048, 0.16), (0, 0.165)]
 
 
@@ -81,16 +90,17 @@ def bottles(name, seed, detail):
     model, r = Model(name), rng(seed)
     segments = (5, 6, 14)[detail]
     shapes = [lathe(p, segments, 30) for p in (BOTTLE, FLASK, JAR)]
-    labels = [lathe([(q + 0.0008, lo), (q + 0.0008, hi)], segments) for q, lo, hi in ((0.038, 0.05, 0.12), (0.05, 0.03, 0.075),
-                                                                                   (0.058, 0.03, 0.10))]
-    for y, z, count in ((TOP_Y + 0.03, 0.33, 11), (TOP_Y + 0.0, 0.55, 9 if detail else 5), (1.32, -0.70, 12 if detail else 8),
-                        (1.68, -0.70, 12 if detail else 8)):
+    bands = ((0.0388, 0.05, 0.12), (0.0508, 0.03, 0.075), (0.0588, 0.03, 0.10))  # radius, bottom, top
+    labels = [lathe([(q, bottom), (q, top)], segments) for q, bottom, top in bands]
+    for y, z, count in ((TOP_Y + 0.03, 0.33, 11), (TOP_Y + 0.0, 0.55, 9 if detail else 5),
+                        (1.32, -0.70, 12 if detail else 8), (1.68, -0.70, 12 if detail else 8)):
         run = int(r.integers(0, 3))
         for k in range(count):
             if r.random() < 0.3:
                 run = int(r.integers(0, 3))
             x = (k - (count - 1) / 2) * 2.3 / count + r.uniform(-0.015, 0.015)
-            m = translate(x, y, z + r.uniform(-0.02, 0.02)) @ rotate_y(r.uniform(0, 6.28)) @ scale(r.uniform(0.92, 1.08))
+            place = translate(x, y, z + r.uniform(-0.02, 0.02))
+            m = place @ rotate_y(r.uniform(0, 6.28)) @ scale(r.uniform(0.92, 1.08))
             model.add(M.BOTTLES[int(r.integers(0, 5))], shapes[run], m)
             if detail and r.random() < 0.6:
                 model.add(M.LABEL, labels[run], m)
@@ -119,22 +129,26 @@ def cloth(name, seed, detail):
         for k in range(7 if rail else 5):
             x = (k - (3 if rail else 2)) * (0.38 if rail else 0.55) + r.uniform(-0.05, 0.05)
             drop = r.uniform(0.75, 1.05) if rail else r.uniform(0.42, 0.62)
-            model.add(M.SCARVES[int(r.integers(0, 6))], hanging_cloth(r.uniform(0.26, 0.34), drop, seed * 31 + k + 9 * rail,
-                                                                                 9 if detail else 6, 6 if detail else 3),
-                      translate(x, y + 0.026, z))
+            color = M.SCARVES[int(r.integers(0, 6))]
+            scarf = hanging_cloth(r.uniform(0.26, 0.34), drop, seed * 31 + k + 9 * rail,
+                                  9 if detail else 6, 6 if detail else 3)
+            model.add(color, scarf, translate(x, y + 0.026, z))
     for k in range(6):
         x, y = (k - 2.5) * 0.4, TOP_Y
         for level in range(int(r.integers(3, 7))):
             h = r.uniform(0.022, 0.034)
-            model.add(M.SCARVES[int(r.integers(0, 6))], bevel_box(r.uniform(0.29, 0.33), h, r.uniform(0.24, 0.28), 0.010),
+            model.add(M.SCARVES[int(r.integers(0, 6))],
+                      bevel_box(r.uniform(0.29, 0.33), h, r.uniform(0.24, 0.28), 0.010),
                       translate(x, y + h / 2, 0.40) @ rotate_y(r.uniform(-0.08, 0.08)))
             y += h
     return model
 
 
 def _bowl(radius, height):
-    out = [(0, 0), (radius * 0.4, 0), (radius * 0.7, height * 0.3), (radius * 0.93, height * 0.75), (radius, height)]
-    return out + [(radius * 0.95, height), (radius * 0.85, height * 0.7), (radius * 0.5, height * 0.3), (0, height * 0.2)]
+    out = [(0, 0), (radius * 0.4, 0), (radius * 0.7, height * 0.3), (radius * 0.93, height * 0.75),
+           (radius, height)]
+    return out + [(radius * 0.95, height), (radius * 0.85, height * 0.7), (radius * 0.5, height * 0.3),
+                  (0, height * 0.2)]
 
 
 def _vase(radius, height, neck):
@@ -148,26 +162,33 @@ def pottery(name, seed, detail):
     """Bowls in stacks, vases and jars in four glazes, on counter, shelf and ground."""
     model, r = Model(name), rng(seed)
     segments = (6, 8, 20)[detail]
-    nested = [lathe(_bowl(q, h)[1:5], segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
-    bowls = [lathe(_bowl(q, h), segments, 45) for q, h in ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))]
-    vases = [lathe(_vase(q, h, n), segments, 50) for q, h, n in ((0.09, 0.26, 0.4), (0.075, 0.36, 0.3), (0.12, 0.2, 0.55))]
+    sizes = ((0.085, 0.06), (0.11, 0.075), (0.065, 0.07))
+    nested = [lathe(_bowl(*s)[1:5], segments, 45)
+              for s in sizes]  # of a stack's lower bowls the outside is enough
+    bowls = [lathe(_bowl(*s), segments, 45) for s in sizes]
+    shapes = ((0.09, 0.26, 0.4), (0.075, 0.36, 0.3), (0.12, 0.2, 0.55))
+    vases = [lathe(_vase(*s), segments, 50) for s in shapes]
     big = lathe(_vase(0.24, 0.62, 0.5), segments + 2, 50)
     for k in range(9):
         x = (k - 4) * 0.27 + r.uniform(-0.03, 0.03)
         glaze = M.GLAZES[int(r.integers(0, 4))]
         if k % 3 == 1:
-            model.add(glaze, vases[int(r.integers(0, 3))], translate(x, TOP_Y, 0.40) @ scale(r.uniform(0.85, 1.05)))
+            model.add(glaze, vases[int(r.integers(0, 3))],
+                      translate(x, TOP_Y, 0.40) @ scale(r.uniform(0.85, 1.05)))
             continue
         shape, y = int(r.integers(0, 3)), TOP_Y
         stack = int(r.integers(2, 5))
         for level in range(stack):
-            model.add(glaze, (bowls if level == stack - 1 else nested)[shape], translate(x, y, 0.42) @ rotate_y(r.uniform(0, 6)) @ rotate_x(r.uniform(-0.03, 0.03)))
+            model.add(glaze, (bowls if level == stack - 1 else nested)[shape],
+                      translate(x, y, 0.42) @ rotate_y(r.uniform(0, 6)) @ rotate_x(r.uniform(-0.03, 0.03)))
             y += 0.024
     for y in (1.32, 1.70):
-        model.add(M.TIMBER, bevel_box(2.7, 0.024, 0.26, 0.004).with_uv_offset(y, 0.4), translate(0, y - 0.02, -0.70))
+        model.add(M.TIMBER, bevel_box(2.7, 0.024, 0.26, 0.004).with_uv_offset(y, 0.4),
+                  translate(0, y - 0.02, -0.70))
         for k in range(6 if detail else 4):
-            model.add(M.GLAZES[int(r.integers(0, 4))], vases[int(r.integers(0, 3))], translate(
-                (k - 2.5) * 0.42 + r.uniform(-0.04, 0.04), y - 0.008, -0.70) @ scale(r.uniform(0.75, 1.0)))
+            glaze, vase = M.GLAZES[int(r.integers(0, 4))], vases[int(r.integers(0, 3))]
+            place = translate((k - 2.5) * 0.42 + r.uniform(-0.04, 0.04), y - 0.008, -0.70)
+            model.add(glaze, vase, place @ scale(r.uniform(0.75, 1.0)))
     for x in (-1.05, -0.55, 1.02):
         model.add(M.GLAZES[int(r.integers(0, 4))], big, translate(x, 0, 1.05) @ scale(r.uniform(0.75, 1.0)))
     return model
@@ -177,7 +198,8 @@ def stool(model, material, matrix):
     model.add(material, cylinder(0.16, 0.03, 14, 0.008), matrix @ translate(0, 0.42, 0))
     for k in range(4):
         a = math.pi / 4 + k * math.pi / 2
-        foot, top = (0.17 * math.cos(a), 0, 0.17 * math.sin(a)), (0.11 * math.cos(a), 0.425, 0.11 * math.sin(a))
+        foot, top = (0.17 * math.cos(a), 0, 0.17 * math.sin(a)), (0.11 * math.cos(a), 0.425,
+                                                                  0.11 * math.sin(a))
         model.add(material, sweep([foot, top], [0.018, 0.014], 4), matrix)
     model.add(material, torus(0.135, 0.008, 12, 4), matrix @ translate(0, 0.2, 0))
 
@@ -186,16 +208,21 @@ def noodles(name, seed, detail):
     """Stock pots with lids, bowls, chopstick jars; stools in front."""
     model, r = Model(name), rng(seed)
     segments = (8, 13, 32)[detail]
-    pot = [(0, 0), (0.2, 0), (0.205, 0.006), (0.205, 0.30), (0.214, 0.304), (0.214, 0.312), (0.198, 0.314), (0.198, 0.25),
-           (0, 0.245)]
-    lid = [(0.0, 0.0), (0.21, 0.0), (0.21, 0.01), (0.12, 0.045), (0.03, 0.055), (0.026, 0.075), (0.03, 0.085), (0, 0.09)]
+    pot = [(0, 0), (0.2, 0), (0.205, 0.006), (0.205, 0.30), (0.214, 0.304), (0.214, 0.312), (0.198, 0.314),
+           (0.198, 0.25), (0, 0.245)]
+    lid = [(0.0, 0.0), (0.21, 0.0), (0.21, 0.01), (0.12, 0.045), (0.03, 0.055), (0.026, 0.075), (0.03, 0.085),
+           (0, 0.09)]
     for k, x in enumerate((-0.95, -0.48, 0.0)):
-        model.add(M.STEEL, lathe(pot, segments, 40), translate(x, TOP_Y, 0.30) @ scale(1, 1 + 0.12 * (k % 2), 1))
+        model.add(M.STEEL, lathe(pot, segments, 40),
+                  translate(x, TOP_Y, 0.30) @ scale(1, 1 + 0.12 * (k % 2), 1))
         if k != 1:
-            model.add(M.STEEL, lathe(lid, segments, 40), translate(x, TOP_Y + 0.312 * (1 + 0.12 * (k % 2)), 0.30))
+            model.add(M.STEEL, lathe(lid, segments, 40),
+                      translate(x, TOP_Y + 0.312 * (1 + 0.12 * (k % 2)), 0.30))
         for s in (-1, 1):
-            ear = [(0, 0.22, 0.205), (-0.05, 0.23, 0.205), (-0.05, 0.23, 0.245), (0.05, 0.23, 0.245), (0.05, 0.23, 0.205)]
-            model.add(M.STEEL, sweep(ear[1:], 0.007, 5), translate(x, TOP_Y, 0.30) @ rotate_y(s * math.pi / 2))
+            ear = [(0, 0.22, 0.205), (-0.05, 0.23, 0.205), (-0.05, 0.23, 0.245), (0.05, 0.23, 0.245),
+                   (0.05, 0.23, 0.205)]
+            model.add(M.STEEL, sweep(ear[1:], 0.007, 5),
+                      translate(x, TOP_Y, 0.30) @ rotate_y(s * math.pi / 2))
     bowl = lathe(_bowl(0.095, 0.075), (6, 9, 18)[detail], 45)
     nested = lathe(_bowl(0.095, 0.075)[1:5], (6, 9, 18)[detail], 45)
     for k in range(4):
@@ -203,7 +230,8 @@ def noodles(name, seed, detail):
         y = TOP_Y
         stack = int(r.integers(3, 7))
         for level in range(stack):
-            model.add(glaze, bowl if level == stack - 1 else nested, translate(0.40 + 0.23 * k, y, 0.34) @ rotate_y(r.uniform(0, 6)))
+            model.add(glaze, bowl if level == stack - 1 else nested,
+                      translate(0.40 + 0.23 * k, y, 0.34) @ rotate_y(r.uniform(0, 6)))
             y += 0.026
     for x in (0.45, 0.95):
         model.add(M.GLAZES[2], lathe([(0, 0), (0.035, 0), (0.038, 0.1), (0.032, 0.1), (0.03, 0.05)], 12, 40),
@@ -212,5 +240,6 @@ def noodles(name, seed, detail):
             tilt = rotate_y(r.uniform(0, 6.28)) @ rotate_x(r.uniform(0.05, 0.2))
             model.add(M.CRATE, bevel_box(0.006, 0.2, 0.006, 0.001), translate(x, TOP_Y + 0.12, 0.62) @ tilt)
     for k in range(4 if detail else 2):
-        stool(model, M.PLASTIC[seed % 2], translate(-0.95 + 0.62 * k + r.uniform(-0.08, 0.08), 0, 1.25 + r.uniform(-0.1, 0.12)))
+        stool(model, M.PLASTIC[seed % 2],
+              translate(-0.95 + 0.62 * k + r.uniform(-0.08, 0.08), 0, 1.25 + r.uniform(-0.1, 0.12)))
     return model

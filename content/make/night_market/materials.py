@@ -11,14 +11,16 @@ def wet_asphalt(size=1024, tile_m=11.0):
     """Asphalt after rain: rough and grey where it has dried, dark with a thin film in between, puddles in the
     hollows. The film and the puddles are what the lights streak on."""
     hollows = fbm(size, 5, 6, 301) + 0.35 * fbm(size, 14, 4, 302)
-    damp = smoothstep(-0.30, 0.12, hollows)
-    puddle = smoothstep(0.06, 0.12, hollows)
+    damp = smoothstep(-0.45, -0.05, hollows)
+    puddle = smoothstep(-0.02, 0.04, hollows)
     first, second, own = worley(size, 170, 303)
     grain = smoothstep(0.1, 0.6, first)
-    value = (0.17 + 0.07 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
-    cracks = smoothstep(0.05, 0.0, np.abs(fbm(size, 4, 5, 304))) * smoothstep(0.1, 0.5, fbm(size, 3, 2, 305) + 0.2)
+    value = (0.13 + 0.06 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
+    cracks = smoothstep(0.05, 0.0, np.abs(fbm(size, 4, 5, 304)))
+    cracks = cracks * smoothstep(0.1, 0.5, fbm(size, 3, 2, 305) + 0.2)
     value = value * (1 - 0.5 * cracks)
-    rough = mix(mix(np.full((size, size), 0.72), np.full((size, size), 0.23), damp), np.full((size, size), 0.10), puddle)
+    rough = mix(mix(np.full((size, size), 0.72), np.full((size, size), 0.24), damp),
+                np.full((size, size), 0.12), puddle)
     rough = rough + 0.05 * (own - 0.5) * (1 - puddle)
     height = -0.0035 * grain * (1 - 0.65 * damp) - 0.006 * cracks
     height = height * (1 - puddle)
@@ -33,7 +35,8 @@ def striped(name, light, dark, size=128, seed=311, stripes=4):
     band = smoothstep(0.46, 0.5, np.abs((u * stripes) % 1 - 0.5) * 2)
     value = mix(np.asarray(light), np.asarray(dark), band)
     value = value * (1 + 0.22 * fbm(size, 4, 5, seed))[..., None]
-    return Material(name, (1, 1, 1), roughness=0.82, color_map=np.clip(value, 0, 1), tile_m=1.2, double_sided=True)
+    return Material(name, (1, 1, 1), roughness=0.82, color_map=np.clip(value, 0, 1), tile_m=1.2,
+                    double_sided=True)
 
 
 def brick(size=512, tile_m=1.2):
@@ -50,7 +53,8 @@ def brick(size=512, tile_m=1.2):
     tone = mix((0.20, 0.075, 0.045), (0.33, 0.15, 0.09), code)
     picture = mix((0.28, 0.26, 0.23), tone, face) * (1 + 0.3 * fbm(size, 8, 5, 321))[..., None]
     return Material("brick", (1, 1, 1), roughness=0.88, color_map=np.clip(picture, 0, 1),
-                    normal_map=normals_from_height(0.005 * face + 0.0012 * fbm(size, 40, 3, 322), tile_m), tile_m=tile_m)
+                    normal_map=normals_from_height(0.005 * face + 0.0012 * fbm(size, 40, 3, 322), tile_m),
+                    tile_m=tile_m)
 
 
 ASPHALT = wet_asphalt()
@@ -59,8 +63,10 @@ BRICK = brick()
 RENDER = plaster("render", 256, 332, (0.42, 0.36, 0.30), 0.0008)
 TIMBER = wood("timber", (0.23, 0.14, 0.075), 512, 341, 0.55, 0.5)
 CRATE = wood("crate wood", (0.45, 0.31, 0.17), 256, 342, 0.65, 0.4, 0.5)
-PAINTED = [Material("counter red", (0.34, 0.035, 0.028), 0.38), Material("counter teal", (0.03, 0.17, 0.18), 0.38),
-           Material("counter ochre", (0.48, 0.27, 0.06), 0.42), Material("counter green", (0.05, 0.14, 0.06), 0.4),
+PAINTED = [Material("counter red", (0.34, 0.035, 0.028), 0.38),
+           Material("counter teal", (0.03, 0.17, 0.18), 0.38),
+           Material("counter ochre", (0.48, 0.27, 0.06), 0.42),
+           Material("counter green", (0.05, 0.14, 0.06), 0.4),
            Material("counter blue", (0.04, 0.09, 0.24), 0.38)]
 STEEL = brushed_metal("steel", (0.56, 0.57, 0.58), 0.33, 256, 351)
 IRON = Material("iron", (0.045, 0.045, 0.05), 0.5)
@@ -80,8 +86,10 @@ SCARVES = [Material(f"scarf {name}", color, 0.7, double_sided=True) for name, co
     ("saffron", (0.72, 0.36, 0.03)), ("crimson", (0.45, 0.02, 0.04)), ("peacock", (0.02, 0.22, 0.28)),
     ("rose", (0.62, 0.20, 0.24)), ("ivory", (0.70, 0.64, 0.52)), ("violet", (0.18, 0.05, 0.28)))]
 FRUIT = {name: Material(name, color, rough) for name, color, rough in (
-    ("orange", (0.78, 0.26, 0.02), 0.42), ("apple", (0.48, 0.03, 0.02), 0.22), ("lime", (0.17, 0.36, 0.03), 0.32),
-    ("lemon", (0.80, 0.58, 0.05), 0.38), ("aubergine", (0.05, 0.012, 0.05), 0.16), ("peach", (0.75, 0.34, 0.17), 0.6))}
+    ("orange", (0.78, 0.26, 0.02), 0.42), ("apple", (0.48, 0.03, 0.02), 0.22),
+    ("lime", (0.17, 0.36, 0.03), 0.32),
+    ("lemon", (0.80, 0.58, 0.05), 0.38), ("aubergine", (0.05, 0.012, 0.05), 0.16),
+    ("peach", (0.75, 0.34, 0.17), 0.6))}
 BOTTLES = [Material(f"bottle {name}", color, 0.08) for name, color in (
     ("green", (0.015, 0.09, 0.025)), ("amber", (0.20, 0.065, 0.008)), ("clear", (0.35, 0.40, 0.40)),
     ("blue", (0.015, 0.05, 0.22)), ("red", (0.30, 0.012, 0.012)))]

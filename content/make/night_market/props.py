@@ -22,7 +22,8 @@ def parasol(canvas, radius=1.45, ribs=8):
     for k in range(ribs):
         a0, a1 = 2 * math.pi * k / ribs, 2 * math.pi * (k + 1) / ribs
         rings = [(0.0, 2.72), (0.5, 2.55), (1.0, 2.26), (1.005, 2.06)]
-        points = [(radius * s * math.cos(a), y, -radius * s * math.sin(a)) for s, y in rings for a in (a0, a1)]
+        points = [(radius * s * math.cos(a), y, -radius * s * math.sin(a))
+                  for s, y in rings for a in (a0, a1)]
         base = len(positions)
         for i in range(3):
             quad = [points[2 * i], points[2 * i + 1], points[2 * i + 3], points[2 * i + 2]]
@@ -42,7 +43,8 @@ def parasol(canvas, radius=1.45, ribs=8):
     model.add(M.STONE, cylinder(0.28, 0.14, 20, 0.02))
     for k in range(ribs):
         a = 2 * math.pi * k / ribs
-        model.add(M.TIMBER, rod((0, 2.66, 0), (0.98 * radius * math.cos(a), 2.24, -0.98 * radius * math.sin(a)), 0.009, 4))
+        model.add(M.TIMBER, rod((0, 2.66, 0),
+                                (0.98 * radius * math.cos(a), 2.24, -0.98 * radius * math.sin(a)), 0.009, 4))
     return model
 
 
@@ -54,7 +56,8 @@ def table(name, kinds, seed):
         for s in (-1, 1):
             model.add(M.TIMBER, bar((x, 0, s * 0.34), (x, 0.71, -s * 0.2), 0.05, 0.03, 0.004))
     for k in range(3):
-        fruit_crate(model, kinds[k % len(kinds)], translate((k - 1) * 0.62, 0.76, 0.12) @ rotate_x(0.25), seed + k, 1)
+        fruit_crate(model, kinds[k % len(kinds)], translate((k - 1) * 0.62, 0.76, 0.12) @ rotate_x(0.25),
+                    seed + k, 1)
     crate(model, translate(0.4, 0, 0.1) @ rotate_y(0.2), 0.55, 0.4, 0.3, seed, 2)
     return model
 
@@ -86,11 +89,13 @@ def handcart(seed=3):
 
 def potted_shrub(seed=5):
     model, r = Model("shrub"), rng(seed)
-    model.add(M.TERRACOTTA, lathe([(0, 0), (0.15, 0), (0.2, 0.30), (0.215, 0.30), (0.215, 0.34), (0.19, 0.34), (0.18, 0.30),
+    model.add(M.TERRACOTTA, lathe([(0, 0), (0.15, 0), (0.2, 0.30), (0.215, 0.30), (0.215, 0.34), (0.19, 0.34),
+                                   (0.18, 0.30),
                                    (0, 0.30)], 18, 40))
     for k in range(44):
         lean, turn = r.uniform(0.1, 1.25), k * 2.39996
         start = translate(0, 0.3 + 0.5 * r.random(), 0)
-        leaf = leaf_mesh(r.uniform(0.2, 0.34), r.uniform(0.07, 0.11), droop=r.uniform(0.4, 1.2), across=2, along=4)
+        leaf = leaf_mesh(r.uniform(0.2, 0.34), r.uniform(0.07, 0.11), droop=r.uniform(0.4, 1.2), across=2,
+                         along=4)
         model.add(M.LEAF, leaf, start @ rotate_y(turn) @ rotate_x(-lean) @ translate(0, 0, 0.03))
     return model

@@ -1,5 +1,5 @@
-"""Stall bodies: posts, counter, curtain, awning. Local frame: X along the lane, +Z to the customer, floor y = 0;
-footprint 2.9 x 1.8 m, the awning reaches 0.65 m beyond it."""
+"""Stall bodies: posts, counter, curtain, awning. Local frame: X along the lane, +Z to the customer, floor y
+= 0; footprint 2.9 x 1.8 m, the awning reaches 0.65 m beyond it."""
 import math
 
 import numpy as np
@@ -7,7 +7,7 @@ import numpy as np
 from kit.mesh import Model
 from kit.noise import rng
 from kit.shapes import bar, bevel_box, surface, sweep
-from kit.transform import rotate_y, translate
+from kit.transform import rotate_y, rotate_z, translate
 
 from . import materials as M
 from .goods import crate
@@ -32,7 +32,8 @@ def body(name, paint, curtain, seed, near):
         front = awning_y(FRONT_Z)
         model.add(M.TIMBER, bevel_box(0.07, front, 0.07, 0.006 * b).with_uv_offset(r.random(), r.random()),
                   translate(x * (HALF_WIDTH_M - 0.04), front / 2, FRONT_Z))
-        model.add(M.TIMBER, bar((x * 1.41, BACK_Y - 0.03, BACK_Z - 0.04), (x * 1.41, FRONT_Y - 0.01, AWNING_Z), 0.05, 0.05, 0.005 * b))
+        model.add(M.TIMBER, bar((x * 1.41, BACK_Y - 0.03, BACK_Z - 0.04),
+                                (x * 1.41, FRONT_Y - 0.01, AWNING_Z), 0.05, 0.05, 0.005 * b))
     for z in (BACK_Z, FRONT_Z):
         y = awning_y(z) - 0.07
         model.add(M.TIMBER, bar((-1.44, y, z), (1.44, y, z), 0.05, 0.06, 0.005 * b))
@@ -42,7 +43,8 @@ def body(name, paint, curtain, seed, near):
         w = 2.6 / boards
         board = bevel_box(w - 0.006, 0.82 + r.uniform(-0.008, 0.008), 0.025, 0.004 * b)
         model.add(paint, board, translate((k - (boards - 1) / 2) * w, 0.45, 0.74 + r.uniform(-0.003, 0.003)))
-    model.add(M.TIMBER, bevel_box(2.72, 0.045, 0.78, 0.008 * b).with_uv_offset(r.random(), r.random()), translate(0, 0.8975, 0.40))
+    model.add(M.TIMBER, bevel_box(2.72, 0.045, 0.78, 0.008 * b).with_uv_offset(r.random(), r.random()),
+              translate(0, 0.8975, 0.40))
     for y, height in ((0.80, 0.10), (0.08, 0.09)):
         model.add(M.TIMBER, bevel_box(2.64, height, 0.02, 0.005 * b), translate(0, y, 0.762))
     for k in range(3):  # price cards along the edge
@@ -50,7 +52,8 @@ def body(name, paint, curtain, seed, near):
         model.add(M.LABEL, card, translate(-0.9 + 0.8 * k + r.uniform(-0.2, 0.2), 0.70, 0.778))
     for x in (-1.3, 1.3):
         model.add(paint, bevel_box(0.03, 0.86, 0.66, 0.004 * b), translate(x, 0.44, 0.41))
-    model.add(curtain, drape(2.76, 2.5, seed, 21 if near else 15, 6 if near else 4), translate(0, BACK_Y - 0.12, BACK_Z + 0.05))
+    model.add(curtain, drape(2.76, 2.5, seed, 21 if near else 15, 6 if near else 4),
+              translate(0, BACK_Y - 0.12, BACK_Z + 0.05))
     for x in (-1, 1):
         if r.random() < 0.75:
             # Drawn back to the rear half, so that the counter is open to the side.
@@ -62,7 +65,8 @@ def body(name, paint, curtain, seed, near):
 def bracket():
     """Iron arm from the awning's frame to a hook."""
     model = Model("bracket")
-    arm = [(0, FRONT_Y + 0.06, 1.2), (0, BRACKET_Y + 0.02, 1.6), (0, BRACKET_Y, BRACKET_Z), (0, BRACKET_Y - 0.04, BRACKET_Z)]
+    arm = [(0, FRONT_Y + 0.06, 1.2), (0, BRACKET_Y + 0.02, 1.6), (0, BRACKET_Y, BRACKET_Z),
+           (0, BRACKET_Y - 0.04, BRACKET_Z)]
     return model.add(M.IRON, sweep(arm, 0.011, 4))
 
 
@@ -105,11 +109,12 @@ def clutter(name, seed):
     model, r = Model(name), rng(seed)
     y = 0.0
     for _ in range(int(r.integers(2, 5))):
-        crate(model, translate(r.uniform(-0.03, 0.03), y, r.uniform(-0.03, 0.03)) @ rotate_y(r.uniform(-0.15, 0.15)), 0.52, 0.36, 0.26,
-              int(r.integers(0, 999)), 1)
+        place = translate(r.uniform(-0.03, 0.03), y,
+                          r.uniform(-0.03, 0.03)) @ rotate_y(r.uniform(-0.15, 0.15))
+        crate(model, place, 0.52, 0.36, 0.26, int(r.integers(0, 999)), 1)
         y += 0.265
     for k in range(2):
         size = r.uniform(0.28, 0.42)
-        model.add(M.CARDBOARD, bevel_box(size * 1.2, size, size, 0.005), translate(0.55, size / 2, -0.2 + 0.45 * k) @ rotate_y(
-            r.uniform(-0.4, 0.4)))
+        model.add(M.CARDBOARD, bevel_box(size * 1.2, size, size, 0.005),
+                  translate(0.55, size / 2, -0.2 + 0.45 * k) @ rotate_y(r.uniform(-0.4, 0.4)))
     return model

@@ -25,7 +25,8 @@ def gutter(length, seed):
     while z > -length:
         run = r.uniform(0.5, 0.8)
         slab = bevel_box(0.42, 0.1, run - 0.008, 0.008).with_uv_offset(r.random() * 2, r.random() * 2)
-        model.add(M.STONE, slab, translate(r.uniform(-0.006, 0.006), -0.042 + r.uniform(-0.004, 0.004), z - run / 2))
+        model.add(M.STONE, slab, translate(r.uniform(-0.006, 0.006), -0.042 + r.uniform(-0.004, 0.004),
+                                           z - run / 2))
         z -= run
     return model
 
@@ -64,7 +65,7 @@ class Houses:
             window_model("window green", curtained_pane("green curtain", (0.55, 0.85, 0.55), 7.0, 3))]
         unit = Model("air conditioner")
         unit.add(M.STEEL, bevel_box(0.8, 0.55, 0.3, 0.012), translate(0, 0, 0.2))
-        unit.add(M.IRON, cylinder(0.21, 0.02, 20, 0.004), translate(-0.12, 0, 0.35) @ rotate_x(math.pi / 2))
+        unit.add(M.IRON, cylinder(0.21, 0.02, 12, 0.004), translate(-0.12, 0, 0.35) @ rotate_x(math.pi / 2))
         unit.add(M.IRON, bevel_box(0.7, 0.03, 0.3, 0.003), translate(0, -0.3, 0.16))
         self.unit = unit
 
@@ -73,7 +74,8 @@ class Houses:
         r = rng(seed)
         wall = M.BRICK if r.random() < 0.6 else M.RENDER
         model = Model(name)
-        model.add(wall, bevel_box(width, height, 4.0, 0.01).with_uv_offset(r.random(), r.random()), translate(0, height / 2, -2.0))
+        model.add(wall, bevel_box(width, height, 4.0, 0.01).with_uv_offset(r.random(), r.random()),
+                  translate(0, height / 2, -2.0))
         model.add(M.STONE, bevel_box(width + 0.1, 0.22, 0.35, 0.012), translate(0, height - 0.05, 0.02))
         model.add(M.STONE, bevel_box(width + 0.04, 0.14, 0.16, 0.01), translate(0, 3.25, 0.03))
         for x in (-width / 2 + 0.25,):
@@ -81,7 +83,8 @@ class Houses:
         shutter = bevel_box(width * 0.55, 2.5, 0.1, 0.006)
         model.add(M.STEEL, shutter, translate(0.2, 1.25, 0.02))
         for k in range(16):
-            model.add(M.STEEL, bevel_box(width * 0.55, 0.05, 0.03, 0.008), translate(0.2, 0.1 + 0.155 * k, 0.08))
+            model.add(M.STEEL, bevel_box(width * 0.55, 0.05, 0.03, 0.008),
+                      translate(0.2, 0.1 + 0.155 * k, 0.08))
         node = self.scene.node(name, self.parent, place, model)
         columns = max(2, int(width / 2.0))
         for row in range(int((height - 3.4) / 2.3)):
@@ -142,15 +145,18 @@ def tea_house(light):
     glow = 0.45 + 0.55 * np.exp(-((x - 0.5) ** 2 * 3 + (y - 0.55) ** 2 * 2))
     picture = np.where(bars > 0.04, glow, 0.05)[..., None] * np.asarray(light.rgb() / max(light.rgb()))
     mean = float(picture.mean(axis=(0, 1)).max())
-    face = Material("paper screens", (0.05, 0.05, 0.05), 0.7, emission_nit=(max(light.face_nit()) / mean,) * 3,
+    face = Material("paper screens", (0.05, 0.05, 0.05), 0.7,
+                    emission_nit=(max(light.face_nit()) / mean,) * 3,
                     emission_map=picture)
     w, h = light.width_m, light.height_m
     model.add(face, quad(w, h, unit_uv=True), translate(0, 0.35 + h / 2, 0))
     for k in range(5):
-        model.add(M.TIMBER, bevel_box(0.14, h + 0.3, 0.16, 0.01), translate((k - 2) * w / 4, 0.35 + h / 2, 0.0))
+        model.add(M.TIMBER, bevel_box(0.14, h + 0.3, 0.16, 0.01),
+                  translate((k - 2) * w / 4, 0.35 + h / 2, 0.0))
     model.add(M.TIMBER, bevel_box(w + 0.6, 0.22, 0.3, 0.015), translate(0, 0.45 + h, 0.05))
     model.add(M.STONE, bevel_box(w + 1.2, 0.34, 0.9, 0.02), translate(0, 0.17, 0.2))
-    model.add(M.PAINTED[1], bevel_box(w + 1.4, 0.06, 1.3, 0.015), translate(0, 0.80 + h, 0.5) @ rotate_x(0.35))
+    model.add(M.PAINTED[1], bevel_box(w + 1.4, 0.06, 1.3, 0.015),
+              translate(0, 0.80 + h, 0.5) @ rotate_x(0.35))
     return model
 
 
@@ -173,7 +179,8 @@ def night_sky(nit=2.0):
     """Card far behind the houses: blue that is deeper above, a town's glow below."""
     size = 128
     y = np.linspace(1, 0, size)[:, None, None]
-    picture = np.exp(-y * 2.2) * np.array([0.16, 0.30, 0.75]) + np.exp(-y * 9) * np.array([0.55, 0.28, 0.22]) * 0.55
+    picture = np.exp(-y * 2.2) * np.array([0.16, 0.30, 0.75])
+    picture = picture + np.exp(-y * 9) * np.array([0.30, 0.155, 0.12])
     picture = np.broadcast_to(picture, (size, 8, 3))
     face = Material("night sky", (0, 0, 0), 1.0, emission_nit=(nit,) * 3, emission_map=np.clip(picture, 0, 1))
     model = Model("night sky")
