@@ -35,7 +35,9 @@ Camera derivedCamera(const Scene& scene, double aspect) {
     return camera;
 }
 
-glm::dvec3 anchorFor(const Camera& camera, double gridM) {
+glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene) {
+    const double radiusM = std::clamp(0.5 * glm::length(scene.max - scene.min), 1e-3, 256.0);
+    const double gridM = std::exp2(std::ceil(std::log2(radiusM))); // a power of two: multiples are exact floats
     const glm::dvec3 position(camera.worldFromCamera[3]);
     return glm::round(position / gridM) * gridM;
 }

@@ -15,8 +15,9 @@ namespace kilolux {
 Camera derivedCamera(const Scene& scene, double aspect);
 
 // The point that GPU positions are relative to: the camera's position rounded to a coarse grid, so that it
-// moves in steps; the origin itself while the camera is within `gridM` of it.
-glm::dvec3 anchorFor(const Camera& camera, double gridM = 256.0);
+// moves in steps; the origin itself while the camera is within half a step of it. A step is about half the
+// scene's extent, at most 256 m: a stage of centimetres keeps its digits a hundred metres from the origin.
+glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene);
 
 // Fills camera rays, matrices and sizes. `jitterPx` moves the sample position within the pixel, in pixels.
 // Pictures of another shape than the camera's keep its vertical field of view.
