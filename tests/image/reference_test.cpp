@@ -1,0 +1,62 @@
+// Both references of the GPU against the oracle, on one G-buffer: a light of each type over the stage, the stage
+// far from the origin, tiny and huge, and materials with textures, masks and mirrored nodes.
+#include "tests/image/image_scenes.h"
+#include "tests/image/oracle_kit.h"
+
+#include <iostream>
+
+namespace kilolux::test {
+namespace {
+
+LightComparison compared(const Scene& scene, const LightOptions& options) {
+    const LightComparison result = compareLight(scene, options);
+    std::cout << options.method << ": " << result << "\n";
+    return result;
+}
+
+// A block of 8 x 8 pixels may differ by what the fitted GGX of `split` loses; `true` fits nothing.
+void expectBothAgree(const Scene& scene, LightOptions options = {}) {
+    options.method = "true";
+    options.frames = 96; // samples of a light of small solid angle spread wide under a glossy lobe
+    LightComparison result = compared(scene, options);
+    expectEquivalent(result);
+    EXPECT_LT(result.worstBlock, 0.005);
+    options.method = "split";
+    options.frames = measure::kMinReplicas;
+    result = compared(scene, options);
+    expectEquivalent(result);
+    EXPECT_LT(result.worstBlock, 0.02);
+}
+
+class ReferenceByLight : public testing::TestWithParam<LightCase> {};
+
+TEST_P(ReferenceByLight, Agrees) { expectBothAgree(stageScene({GetParam()})); }
+
+INSTANTIATE_TEST_SUITE_P(Types, ReferenceByLight, testing::ValuesIn(lightCases()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(Reference, CornellAgrees) { expectBothAgree(loadScene("cornell.glb")); }
+
+TEST(Reference, AllLightsTogetherAgree) { expectBothAgree(stageScene(lightCases()), {.raysPerLight = 8}); }
+
+TEST(Reference, BothGBuffersAgree) {
+    const Scene scene = stageScene({lightCases()[0], lightCases()[4]});
+    expectBothAgree(scene, {.settings = {"gbuffer=raster"}});
+    expectBothAgree(scene, {.settings = {"gbuffer=compute"}});
+}
+
+class ReferenceByPlace : public testing::TestWithParam<std::pair<double, glm::dvec3>> {};
+
+TEST_P(ReferenceByPlace, Agrees) {
+    const Scene scene = stageScene({lightCases()[0], lightCases()[2], lightCases()[3]});
+    expectBothAgree(placedScene(scene, GetParam().first, GetParam().second));
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, ReferenceByPlace,
+                         testing::Values(std::pair(0.01, glm::dvec3(0.0)), std::pair(1000.0, glm::dvec3(0.0)),
+                                         std::pair(1.0, glm::dvec3(1e4, 0.0, 0.0)),
+                                         std::pair(1.0, glm::dvec3(-7e3, 300.0, 7e3)),
+                                         std::pair(0.01, glm::dvec3(50.0, 0.0, -80.0))));
+
+} // namespace
+} // namespace kilolux::test
