@@ -48,6 +48,7 @@ uvec4 fetchNode(uint texel) { return texelOf<uvec4>(boundWorld->nodes, texel); }
 vec4 fetchPair(uint texel) { return texelOf<vec4>(boundWorld->pairs, texel); }
 uvec2 fetchPairIds(uint pair) { return boundWorld->pairIds[pair]; }
 uvec4 fetchEntry(uint texel) { return texelOf<uvec4>(boundWorld->entries, texel); }
+BvhEntry worldEntry() { return boundWorld->entries[0]; }
 uvec2 fetchTraceInstance(uint index) { return texelOf<uvec2>(boundWorld->instances, index); }
 uint traceInstanceCount() { return uint(boundWorld->instances.size()); }
 float fetchAlphaTexel(uint texel) { return float(boundWorld->alpha.texels[texel]) / 255.0f; }

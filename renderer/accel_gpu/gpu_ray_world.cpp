@@ -35,10 +35,13 @@ GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world, TraceBackEn
                          backEnd == TraceBackEnd::RayQuery ? kBuildInput : 0)),
       pairIds_(texelBuffer(device, "tracePairIds", kUint2, world.pairIds)),
       entries_(texelBuffer(device, "traceEntries", kUint4, world.entries)),
+      worldEntry_(device, {"traceWorld", sizeof(shared::BvhEntry), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                           gpu::MemoryUse::DeviceOnly, "ray world"}),
       instances_(texelBuffer(device, "traceInstances", kUint2, world.instances)),
       alphaTexels_(texelBuffer(device, "alphaTexels", VK_FORMAT_R8_UNORM, world.alpha.texels)),
       alphaRecords_(texelBuffer(device, "alphaRecords", kUint4, world.alpha.records)),
       alphaTriangles_(texelBuffer(device, "alphaTriangles", kUint4, world.alpha.triangles)) {
+    worldEntry_.upload(std::as_bytes(std::span(world.entries.data(), 1)));
     if (backEnd == TraceBackEnd::RayQuery)
         rayQuery_ = std::make_unique<RayQueryWorld>(device, world, *this);
 }
@@ -47,6 +50,7 @@ GpuRayWorld::~GpuRayWorld() = default;
 
 void GpuRayWorld::update(const RayWorld& world) {
     entries_.upload(world.entries);
+    worldEntry_.upload(std::as_bytes(std::span(world.entries.data(), 1)));
     if (world.topNodeCapacity > 0)
         nodes_.upload(std::as_bytes(std::span(world.nodes.data(), world.topNodeCapacity)));
     if (rayQuery_)
@@ -69,7 +73,7 @@ std::vector<gpu::PassUse> GpuRayWorld::traceUses(TraceBackEnd backEnd) {
     for (const char* name : {"tracePairs", "tracePairIds", "traceEntries"})
         uses.push_back({name});
     if (backEnd == TraceBackEnd::ComputeBvh)
-        uses.push_back({"traceNodes"});
+        uses.insert(uses.end(), {{"traceNodes"}, {"TraceWorld"}});
     else
         uses.insert(uses.end(), {{"rayQueryTriangles"}, {"rayQueryScene"}});
     return uses;
@@ -85,6 +89,7 @@ gpu::Bindings GpuRayWorld::traceBindings() const {
         bindings.push_back({"rayQueryScene", rayQuery_->scene()});
     } else {
         bindings.push_back({"traceNodes", nodes_});
+        bindings.push_back({"TraceWorld", worldEntry_});
     }
     return bindings;
 }

@@ -45,7 +45,7 @@ class GpuRayWorld {
 
   private:
     bool hasAlpha_ = false;
-    gpu::Buffer nodes_, pairs_, pairIds_, entries_, instances_;
+    gpu::Buffer nodes_, pairs_, pairIds_, entries_, worldEntry_, instances_;
     gpu::Buffer alphaTexels_, alphaRecords_, alphaTriangles_;
     std::unique_ptr<RayQueryWorld> rayQuery_;
 };

@@ -8,6 +8,13 @@ uvec4 fetchNode(uint texel) {
     return texelFetch(traceNodes, int(texel));
 }
 
+// traceEntries[0] again: where every ray starts, at a scalar load's cost.
+layout(scalar) uniform TraceWorld { BvhEntry traceWorld; };
+
+BvhEntry worldEntry() {
+    return traceWorld;
+}
+
 #include "trace_core.glsl"
 
 bool occluded(Ray ray) {

@@ -11,7 +11,7 @@
 // JCGT 2013, section 3), its error relative to the grid by the sixteenth of a step that boxes keep.
 //
 // Needs, beside what trace_hit.glsl does: uvec4 fetchNode(uint texel), vec4 fetchPair(uint texel),
-// uvec4 fetchEntry(uint texel), and const bool kTraceAlpha.
+// uvec4 fetchEntry(uint texel), BvhEntry worldEntry(), and const bool kTraceAlpha.
 #ifndef KILOLUX_TRACE_CORE_GLSL
 #define KILOLUX_TRACE_CORE_GLSL
 #include "trace_hit.glsl"
@@ -38,35 +38,17 @@ KX_INLINE float awayFromZero(float value, float smallest) {
     return abs(value) < smallest ? (value < 0.0 ? -smallest : smallest) : value;
 }
 
-// Moves the ray into the space of an entry. The parameter along the ray stays the same.
-KX_INLINE TraceSpace enterSpace(uint entry, Ray ray) {
-    uint texel = entry * BVH_ENTRY_TEXELS;
-    uvec4 e0 = fetchEntry(texel);
-    uvec4 e1 = fetchEntry(texel + 1u);
-    uvec4 e2 = fetchEntry(texel + 2u);
-    uvec4 e3 = fetchEntry(texel + 3u);
-    uvec4 e4 = fetchEntry(texel + 4u);
-    uvec4 e5 = fetchEntry(texel + 5u);
-    vec3 linear0 = bitsToVec3(e0.x, e0.y, e0.z);
-    vec3 linear1 = bitsToVec3(e0.w, e1.x, e1.y);
-    vec3 linear2 = bitsToVec3(e1.z, e1.w, e2.x);
-    vec3 fromPivot = ray.origin - bitsToVec3(e2.y, e2.z, e2.w);
-    vec3 pivotLs = bitsToVec3(e3.x, e3.y, e3.z);
-    vec3 gridMin = bitsToVec3(e3.w, e4.x, e4.y);
-    vec3 gridStep = bitsToVec3(e4.z, e4.w, e5.x);
-
+// The ray, given in the space of a BVH whose boxes lie on the grid.
+KX_INLINE TraceSpace makeSpace(vec3 origin, vec3 dir, vec3 gridMin, vec3 gridStep) {
     TraceSpace space;
-    space.rootRef = e5.y;
-    space.firstTriangle = e5.z;
-    space.origin = vec3(dot(linear0, fromPivot), dot(linear1, fromPivot), dot(linear2, fromPivot)) + pivotLs;
-    vec3 dir = vec3(dot(linear0, ray.dir), dot(linear1, ray.dir), dot(linear2, ray.dir));
+    space.origin = origin;
     vec3 size = abs(dir);
     float longest = max(size.x, max(size.y, size.z));
     float smallest = longest * TRACE_MIN_DIRECTION;
     vec3 inverse = vec3(1.0 / awayFromZero(dir.x, smallest), 1.0 / awayFromZero(dir.y, smallest),
                         1.0 / awayFromZero(dir.z, smallest));
     space.planeScale = gridStep * inverse;
-    space.planeBias = (gridMin - space.origin) * inverse;
+    space.planeBias = (gridMin - origin) * inverse;
 
     // z is the ray's longest axis; x and y follow it cyclically, exchanged where the ray runs against z, so that
     // the winding survives the projection.
@@ -81,6 +63,37 @@ KX_INLINE TraceSpace enterSpace(uint entry, Ray ray) {
     space.rowX = invZ < 0.0 ? shearY : shearX;
     space.rowY = invZ < 0.0 ? shearX : shearY;
     space.rowZ = axisZ * invZ;
+    return space;
+}
+
+// Every ray starts here; the world's entry has no linear part and is read once for all rays.
+KX_INLINE TraceSpace worldSpace(Ray ray) {
+    BvhEntry world = worldEntry();
+    TraceSpace space = makeSpace(ray.origin - world.pivotWs, ray.dir, world.gridMin, world.gridStep);
+    space.rootRef = world.rootRef;
+    space.firstTriangle = world.firstTriangle;
+    return space;
+}
+
+// Moves the ray into the space of an entry. The parameter along the ray stays the same.
+KX_INLINE TraceSpace enterSpace(uint entry, Ray ray) {
+    uint texel = entry * BVH_ENTRY_TEXELS;
+    uvec4 e0 = fetchEntry(texel);
+    uvec4 e1 = fetchEntry(texel + 1u);
+    uvec4 e2 = fetchEntry(texel + 2u);
+    uvec4 e3 = fetchEntry(texel + 3u);
+    uvec4 e4 = fetchEntry(texel + 4u);
+    uvec4 e5 = fetchEntry(texel + 5u);
+    vec3 linear0 = bitsToVec3(e0.x, e0.y, e0.z);
+    vec3 linear1 = bitsToVec3(e0.w, e1.x, e1.y);
+    vec3 linear2 = bitsToVec3(e1.z, e1.w, e2.x);
+    vec3 fromPivot = ray.origin - bitsToVec3(e2.y, e2.z, e2.w);
+    vec3 pivotLs = bitsToVec3(e3.x, e3.y, e3.z);
+    vec3 origin = vec3(dot(linear0, fromPivot), dot(linear1, fromPivot), dot(linear2, fromPivot)) + pivotLs;
+    vec3 dir = vec3(dot(linear0, ray.dir), dot(linear1, ray.dir), dot(linear2, ray.dir));
+    TraceSpace space = makeSpace(origin, dir, bitsToVec3(e3.w, e4.x, e4.y), bitsToVec3(e4.z, e4.w, e5.x));
+    space.rootRef = e5.y;
+    space.firstTriangle = e5.z;
     return space;
 }
 
@@ -207,7 +220,7 @@ KX_INLINE bool traverse(Ray ray, bool anyHit, uint alphaMode, INOUT(PairHit) fou
     stack[0] = BVH_REF_DONE;
     uint top = 1u;
     uint entry = 0u;
-    TraceSpace space = enterSpace(entry, ray);
+    TraceSpace space = worldSpace(ray);
     uint ref = space.rootRef;
     bool hit = false;
     while (ref != BVH_REF_DONE) {
