@@ -296,6 +296,6 @@ def build():
         raise SystemExit(f"night_market has {market.lit} area lights in view, not {LIGHT_COUNT}")
     scene.node("sky light", matrix=look_at((-14, 30, 16), (0, 0, -16)), light=SKY)
     scene.camera("wide", look_at(WIDE_EYE, WIDE_TARGET), WIDE_YFOV)
-    scene.camera("close", look_at((-0.95, 1.58, -0.9), (2.0, 1.28, -5.0)), math.radians(42))
+    scene.camera("close", look_at((-0.62, 1.56, -1.0), (2.1, 1.26, -5.0)), math.radians(42))
     scene.camera("lane", look_at((0.5, 1.6, -5.5), (-0.6, 2.1, -18)), math.radians(48))
     return scene

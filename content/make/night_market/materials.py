@@ -7,22 +7,22 @@ from kit.noise import fbm, mix, normals_from_height, smoothstep, worley
 from kit.surfaces import brushed_metal, glazed_clay, leaf, plaster, rough_concrete, tinted, wood, woven
 
 
-def wet_asphalt(size=1024, tile_m=11.0):
+def wet_asphalt(size=1024, tile_m=7.5):
     """Asphalt after rain: rough and grey where it has dried, dark with a thin film in between, puddles in the
     hollows. The film and the puddles are what the lights streak on."""
     hollows = fbm(size, 5, 6, 301) + 0.35 * fbm(size, 14, 4, 302)
     damp = smoothstep(-0.45, -0.05, hollows)
     puddle = smoothstep(-0.02, 0.04, hollows)
-    first, second, own = worley(size, 170, 303)
+    first, second, own = worley(size, 300, 303)
     grain = smoothstep(0.1, 0.6, first)
-    value = (0.13 + 0.06 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
+    value = (0.13 + 0.10 * (own - 0.5)) * (1 - 0.25 * grain) * (1 - 0.55 * damp)
     cracks = smoothstep(0.05, 0.0, np.abs(fbm(size, 4, 5, 304)))
     cracks = cracks * smoothstep(0.1, 0.5, fbm(size, 3, 2, 305) + 0.2)
     value = value * (1 - 0.5 * cracks)
     rough = mix(mix(np.full((size, size), 0.72), np.full((size, size), 0.24), damp),
                 np.full((size, size), 0.12), puddle)
     rough = rough + 0.05 * (own - 0.5) * (1 - puddle)
-    height = -0.0035 * grain * (1 - 0.65 * damp) - 0.006 * cracks
+    height = -0.0022 * grain * (1 - 0.65 * damp) - 0.006 * cracks
     height = height * (1 - puddle)
     return Material("wet asphalt", (1, 1, 1), color_map=tinted(value, (0.98, 1.0, 1.04)), roughness_map=rough,
                     normal_map=normals_from_height(height, tile_m), tile_m=tile_m)
