@@ -143,7 +143,8 @@ TEST_F(RenderCommand, SceneWithoutLightsOrCamerasRenders) {
     EXPECT_NE(result.err.find("kilolux: warning: "), std::string::npos) << "an empty scene deserves a word";
     const ProgramRun refused = run({"render", "bare.gltf", "--camera", "main"});
     EXPECT_EQ(refused.exitCode, 2);
-    EXPECT_NE(refused.err.find("kilolux: error: unknown camera 'main'; the scene has none"), std::string::npos);
+    EXPECT_NE(refused.err.find("kilolux: error: unknown camera 'main'; the scene has none"),
+              std::string::npos);
 }
 
 } // namespace
