@@ -6,7 +6,7 @@ import numpy as np
 
 from kit import paintings
 from kit.lights import Light
-from kit.material import Material
+from kit.material import Material, kelvin
 from kit.mesh import Model
 from kit.shapes import bevel_box, cylinder, lathe, quad, rod, sphere
 from kit.transform import look_at, rotate_x, rotate_y, rotate_z, translate
@@ -16,28 +16,27 @@ from . import materials as M
 
 VIDEO = paintings.waves()
 DEG = math.pi / 180
-# Gel on the track heads. The picture is balanced for 6500 K; this takes the lamps half-way to what an eye
-# that has
-# settled into the room sees.
-GEL = (0.64, 0.87, 1.0)
+LIFT = kelvin(3900.0) / kelvin(3000.0)
+# Gel on the warm heads. The picture is balanced for 6500 K; this lifts a 3000 K lamp to 3900 K, half-way to
+# what an eye that has settled into the room sees. Like the real foil it takes its share of the light.
+GEL = tuple(float(round(c, 3)) for c in LIFT / LIFT.max())
 
 
-def spot_light(name, lumen, outer_deg, kelvin=3000.0, inner=0.55, radius=0.035):
-    return Light(name, "spot", lumen, "lumen", color=GEL, temperature_k=kelvin, range_m=12.0, radius_m=radius,
-                 inner_rad=outer_deg * inner * DEG, outer_rad=outer_deg * DEG, ray_end_bias_m=0.06)
+def spot_light(name, lumen, outer_deg, temperature_k=3000.0, inner=0.55, radius=0.035, gel=GEL):
+    return Light(name, "spot", lumen, "lumen", color=gel, temperature_k=temperature_k, range_m=12.0,
+                 radius_m=radius, inner_rad=outer_deg * inner * DEG, outer_rad=outer_deg * DEG, ray_end_bias_m=0.06)
 
 
 # Definitions are shared by all heads of a kind, as a lighting artist would set them up.
-PICTURE = spot_light("picture spot", 900.0, 27)
-ACCENT = spot_light("accent spot", 900.0, 17, 2800.0)
-SOFT_ACCENT = spot_light("plant spot", 700.0, 24, 3000.0)
-WASHER = spot_light("wall washer", 1500.0, 52, 4000.0, 0.3, 0.05)
+PICTURE = spot_light("picture spot", 1500.0, 27)
+ACCENT = spot_light("accent spot", 1400.0, 17, 2800.0)
+SOFT_ACCENT = spot_light("plant spot", 1100.0, 24, 3000.0)
+WASHER = spot_light("wall washer", 1200.0, 52, 4500.0, 0.3, 0.05, (1.0, 1.0, 1.0))
 SKYLIGHT = Light("skylight", "rect", 150.0, "nit", temperature_k=6500.0, width_m=room.SKYLIGHT_M[0],
                  height_m=room.SKYLIGHT_M[1], range_m=16.0, ray_end_bias_m=0.02)
-FRAMER = Light("framing projector", "rect", 900.0, "lumen", color=GEL, temperature_k=3000.0, width_m=0.12,
-               height_m=0.12,
-               range_m=10.0, door_angle_rad=38 * DEG, door_length_m=0.12, ray_end_bias_m=0.05)
-COVE = Light("cove tube", "tube", 1100.0, "lumen", color=GEL, temperature_k=3500.0, radius_m=0.013,
+FRAMER = Light("framing projector", "rect", 1400.0, "lumen", color=GEL, temperature_k=3000.0, width_m=0.12,
+               height_m=0.12, range_m=10.0, door_angle_rad=38 * DEG, door_length_m=0.12, ray_end_bias_m=0.05)
+COVE = Light("cove tube", "tube", 1500.0, "lumen", color=GEL, temperature_k=3500.0, radius_m=0.013,
              length_m=1.42, range_m=8.0,
              ray_end_bias_m=0.03)
 CASE = Light("case tube", "tube", 260.0, "lumen", temperature_k=3500.0, radius_m=0.006, length_m=0.8,
