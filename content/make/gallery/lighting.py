@@ -24,7 +24,8 @@ GEL = tuple(float(round(c, 3)) for c in LIFT / LIFT.max())
 
 def spot_light(name, lumen, outer_deg, temperature_k=3000.0, inner=0.55, radius=0.035, gel=GEL):
     return Light(name, "spot", lumen, "lumen", color=gel, temperature_k=temperature_k, range_m=12.0,
-                 radius_m=radius, inner_rad=outer_deg * inner * DEG, outer_rad=outer_deg * DEG, ray_end_bias_m=0.06)
+                 radius_m=radius, inner_rad=outer_deg * inner * DEG, outer_rad=outer_deg * DEG,
+                 ray_end_bias_m=0.06)
 
 
 # Definitions are shared by all heads of a kind, as a lighting artist would set them up.
