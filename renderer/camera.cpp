@@ -22,8 +22,10 @@ Camera derivedCamera(const Scene& scene, double aspect) {
     const double tanY = std::tan(0.5 * camera.yfovRad), tanX = tanY * aspect;
     double distanceM = 0.1 * radiusM;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p = glm::dvec3(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                                        corner & 4 ? bounds.max.z : bounds.min.z) - center;
+        const glm::dvec3 p =
+            glm::dvec3(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                       corner & 4 ? bounds.max.z : bounds.min.z) -
+            center;
         const double depth = glm::dot(p, toCamera);
         distanceM = std::max({distanceM, depth + std::abs(glm::dot(p, right)) / tanX,
                               depth + std::abs(glm::dot(p, up)) / tanY});
@@ -37,7 +39,8 @@ Camera derivedCamera(const Scene& scene, double aspect) {
 
 glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene) {
     const double radiusM = std::clamp(0.5 * glm::length(scene.max - scene.min), 1e-3, 256.0);
-    const double gridM = std::exp2(std::ceil(std::log2(radiusM))); // a power of two: multiples are exact floats
+    const double gridM =
+        std::exp2(std::ceil(std::log2(radiusM))); // a power of two: multiples are exact floats
     const glm::dvec3 position(camera.worldFromCamera[3]);
     return glm::round(position / gridM) * gridM;
 }
@@ -63,8 +66,8 @@ void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::d
     frame.zNearM = float(camera.znearM);
     frame.pixelAngleRad = camera.orthographic ? 0.0f : float(2.0 * halfY / heightPx);
 
-    const glm::dmat4 world = glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0),
-                                        glm::dvec4(position, 1));
+    const glm::dmat4 world =
+        glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0), glm::dvec4(position, 1));
     // Reversed depth: near plane at 1, far at 0. Vulkan's clip space has y down.
     glm::dmat4 clip(0.0);
     const glm::dvec2 shift(-2.0 * jitterPx.x / widthPx, -2.0 * jitterPx.y / heightPx);
@@ -104,7 +107,8 @@ double sampleBlackmanHarris(double u) {
             const double x = kBlackmanHarrisRadiusPx * ((i + 0.5) / 512.0 - 1.0);
             sums[std::size_t(i) + 1] = sums[std::size_t(i)] + blackmanHarris(x, kBlackmanHarrisRadiusPx);
         }
-        for (double& sum : sums) sum /= sums[1024];
+        for (double& sum : sums)
+            sum /= sums[1024];
         return sums;
     }();
     const auto above = std::upper_bound(cumulative.begin() + 1, cumulative.end() - 1, u);

@@ -1,5 +1,5 @@
-// From a document camera to what a frame needs: rays per pixel and the clip matrix, both relative to an anchor
-// near the camera, so that scenes far from the origin keep their precision.
+// From a document camera to what a frame needs: rays per pixel and the clip matrix, both relative to an
+// anchor near the camera, so that scenes far from the origin keep their precision.
 #pragma once
 
 #include "renderer/document/scene.h"

@@ -37,7 +37,8 @@ struct FramePasses {
     std::unique_ptr<DebugViewPass> debugView;
 };
 
-// Records one frame. `framesBefore`: frames that the running mean holds already. `world`: bindings of the tracer.
+// Records one frame. `framesBefore`: frames that the running mean holds already. `world`: bindings of the
+// tracer.
 void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan, const gpu::Bindings& world,
                  std::uint32_t framesBefore, float depthScaleM);
 

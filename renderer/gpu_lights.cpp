@@ -14,24 +14,35 @@ namespace {
 
 shared::uint typeCode(LightType type) {
     switch (type) {
-    case LightType::Directional: return shared::LIGHT_DIRECTIONAL;
-    case LightType::Sphere: return shared::LIGHT_SPHERE;
-    case LightType::Spot: return shared::LIGHT_SPOT;
-    case LightType::Tube: return shared::LIGHT_TUBE;
-    case LightType::Rect: return shared::LIGHT_RECT;
-    case LightType::Disk: return shared::LIGHT_DISK;
+    case LightType::Directional:
+        return shared::LIGHT_DIRECTIONAL;
+    case LightType::Sphere:
+        return shared::LIGHT_SPHERE;
+    case LightType::Spot:
+        return shared::LIGHT_SPOT;
+    case LightType::Tube:
+        return shared::LIGHT_TUBE;
+    case LightType::Rect:
+        return shared::LIGHT_RECT;
+    case LightType::Disk:
+        return shared::LIGHT_DISK;
     }
     return shared::LIGHT_SPHERE;
 }
 
 glm::vec2 sizeOf(const LightDef& def) {
     switch (def.type) {
-    case LightType::Directional: return {float(std::tan(0.5 * def.angularDiameterRad)), 0.0f};
+    case LightType::Directional:
+        return {float(std::tan(0.5 * def.angularDiameterRad)), 0.0f};
     case LightType::Sphere:
-    case LightType::Spot: return {float(def.radiusM), 0.0f};
-    case LightType::Tube: return {float(def.radiusM), float(0.5 * def.lengthM)};
-    case LightType::Rect: return {float(0.5 * def.widthM), float(0.5 * def.heightM)};
-    case LightType::Disk: return {float(0.5 * def.widthM), 0.0f};
+    case LightType::Spot:
+        return {float(def.radiusM), 0.0f};
+    case LightType::Tube:
+        return {float(def.radiusM), float(0.5 * def.lengthM)};
+    case LightType::Rect:
+        return {float(0.5 * def.widthM), float(0.5 * def.heightM)};
+    case LightType::Disk:
+        return {float(0.5 * def.widthM), 0.0f};
     }
     return {0.0f, 0.0f};
 }
@@ -47,10 +58,14 @@ glm::vec2 shapingOf(const LightDef& def) {
 // Half of the source's largest extent, for distances that count from its surface.
 double extentM(const LightDef& def) {
     switch (def.type) {
-    case LightType::Tube: return 0.5 * def.lengthM + def.radiusM;
-    case LightType::Rect: return 0.5 * std::hypot(def.widthM, def.heightM);
-    case LightType::Disk: return 0.5 * def.widthM;
-    default: return def.radiusM;
+    case LightType::Tube:
+        return 0.5 * def.lengthM + def.radiusM;
+    case LightType::Rect:
+        return 0.5 * std::hypot(def.widthM, def.heightM);
+    case LightType::Disk:
+        return 0.5 * def.widthM;
+    default:
+        return def.radiusM;
     }
 }
 
@@ -107,8 +122,9 @@ std::vector<SurfacePoint> spreadPoints(const Scene& scene, int count) {
             const std::size_t step = std::max<std::size_t>(1, primitive.indices.size() / 3 / 2000);
             for (std::size_t i = 0; i + 2 < primitive.indices.size(); i += 3 * step) {
                 const auto corner = [&](std::size_t k) {
-                    return glm::dvec3(node.worldFromNode *
-                                      glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[i + k]]), 1.0));
+                    return glm::dvec3(
+                        node.worldFromNode *
+                        glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[i + k]]), 1.0));
                 };
                 const glm::dvec3 a = corner(0), ab = corner(1) - a, ac = corner(2) - a;
                 const double triangleArea = 0.5 * glm::length(glm::cross(ab, ac)) * double(step);
@@ -123,8 +139,9 @@ std::vector<SurfacePoint> spreadPoints(const Scene& scene, int count) {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     for (int i = 0; i < count && !patches.empty(); ++i) {
         const double target = uniform(random) * area;
-        const auto found = std::lower_bound(patches.begin(), patches.end() - 1, target,
-                                            [](const Patch& patch, double value) { return patch.sumArea < value; });
+        const auto found =
+            std::lower_bound(patches.begin(), patches.end() - 1, target,
+                             [](const Patch& patch, double value) { return patch.sumArea < value; });
         const double root = std::sqrt(uniform(random)), v = uniform(random);
         points.push_back({found->a + root * (1.0 - v) * found->ab + root * v * found->ac,
                           glm::normalize(glm::cross(found->ab, found->ac))});
@@ -137,7 +154,9 @@ constexpr double kRangeShare = 1e-3;
 
 } // namespace
 
-double exposureFromEv100(double ev100) { return 1.0 / (1.2 * std::exp2(ev100)); }
+double exposureFromEv100(double ev100) {
+    return 1.0 / (1.2 * std::exp2(ev100));
+}
 
 DerivedRange deriveRange(const LightDef& def, double exposureEv100) {
     // A middle grey surface (reflectance 0.18) shown as middle grey has luminance 0.18 / exposure.

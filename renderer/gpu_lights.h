@@ -14,16 +14,16 @@ struct DerivedRange {
     double lostLux = 0.0;
 };
 
-// Where the light's illuminance falls under 1/1000 of what `exposureEv100` shows as middle grey: E = pi * L with
-// L = 0.18 / exposure over a reflectance of 0.18.
+// Where the light's illuminance falls under 1/1000 of what `exposureEv100` shows as middle grey: E = pi * L
+// with L = 0.18 / exposure over a reflectance of 0.18.
 DerivedRange deriveRange(const LightDef& def, double exposureEv100);
 
 // Display value of one nit: 1 / (1.2 * 2^EV100), saturation-based (ISO 12232, as in Lagarde and de Rousiers,
 // "Moving Frostbite to Physically Based Rendering", 2014, section 5.1.1).
 double exposureFromEv100(double ev100);
 
-// An exposure that shows the surfaces lit by the scene's lights in the middle of the scale: from the unshadowed
-// illuminance at points spread over the geometry. EV100 of 0 for scenes without light.
+// An exposure that shows the surfaces lit by the scene's lights in the middle of the scale: from the
+// unshadowed illuminance at points spread over the geometry. EV100 of 0 for scenes without light.
 double deriveExposureEv100(const Scene& scene);
 
 struct GpuLights {

@@ -75,7 +75,8 @@ const Material& materialOf(const Scene& scene, int index) {
 }
 
 GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, const Material& material,
-                         const PrimitivePlace& place, const glm::dvec3& anchor, std::uint32_t defaultMaterial) {
+                         const PrimitivePlace& place, const glm::dvec3& anchor,
+                         std::uint32_t defaultMaterial) {
     glm::dmat4 m = instance.worldFromLocal;
     m[3] -= glm::dvec4(anchor, 0.0);
     GpuInstance gpu{};
@@ -154,8 +155,12 @@ void GpuScene::uploadGeometry(const Scene& scene) {
         (instance.role == SurfaceRole::Absent ? transparent_ : opaque_).push_back(draw);
     }
     vertexBuffer_ = texelBuffer(device_, "vertices", vertices, VK_FORMAT_R32G32B32A32_UINT, "geometry");
-    gpu::BufferDesc indexDesc{"indices", indices.size() * 4, kTexels | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
-                              gpu::MemoryUse::DeviceOnly, "geometry", VK_FORMAT_R32_UINT};
+    gpu::BufferDesc indexDesc{"indices",
+                              indices.size() * 4,
+                              kTexels | VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                              gpu::MemoryUse::DeviceOnly,
+                              "geometry",
+                              VK_FORMAT_R32_UINT};
     indexBuffer_ = gpu::Buffer(device_, indexDesc);
     indexBuffer_.upload(indices);
     uv1Buffer_ = texelBuffer(device_, "uv1s", uv1s, VK_FORMAT_R32G32_SFLOAT, "geometry");
@@ -199,8 +204,11 @@ std::optional<Error> GpuScene::uploadLights(const Scene& scene, double exposureE
     // The uniform block is as large as the shader declares it, whatever the scene holds.
     lights.hot.resize(std::max<std::size_t>(lights.hot.size(), LIGHT_UNIFORM_SLOTS),
                       LightHot{.typeFlags = LIGHT_FLAG_DEAD});
-    gpu::BufferDesc desc{"lightsHot", lights.hot.size() * sizeof(LightHot),
-                         kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::DeviceOnly, "lights",
+    gpu::BufferDesc desc{"lightsHot",
+                         lights.hot.size() * sizeof(LightHot),
+                         kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                         gpu::MemoryUse::DeviceOnly,
+                         "lights",
                          VK_FORMAT_R32G32B32A32_UINT};
     lightsHot_ = gpu::Buffer(device_, desc);
     lightsHot_.upload(lights.hot);
@@ -222,7 +230,8 @@ std::optional<Error> GpuScene::uploadLights(const Scene& scene, double exposureE
 }
 
 void GpuScene::decideFeatures(const Scene& scene) {
-    for (int feature = 0; feature < FEATURE_COUNT; ++feature) features_[std::uint32_t(feature)] = 0;
+    for (int feature = 0; feature < FEATURE_COUNT; ++feature)
+        features_[std::uint32_t(feature)] = 0;
     features_[FEATURE_ALPHA_MASK] = rayWorld_->hasAlpha();
     for (const Instance& instance : instances_) {
         const Material& material = materialOf(scene, instance.material);
@@ -233,12 +242,24 @@ void GpuScene::decideFeatures(const Scene& scene) {
     }
     for (const LightNode& light : scene.lights) {
         switch (scene.lightDefs[std::size_t(light.def)].type) {
-        case LightType::Directional: features_[FEATURE_DIRECTIONAL_LIGHTS] = 1; break;
-        case LightType::Sphere: features_[FEATURE_SPHERE_LIGHTS] = 1; break;
-        case LightType::Spot: features_[FEATURE_SPOT_LIGHTS] = 1; break;
-        case LightType::Tube: features_[FEATURE_TUBE_LIGHTS] = 1; break;
-        case LightType::Rect: features_[FEATURE_RECT_LIGHTS] = 1; break;
-        case LightType::Disk: features_[FEATURE_DISK_LIGHTS] = 1; break;
+        case LightType::Directional:
+            features_[FEATURE_DIRECTIONAL_LIGHTS] = 1;
+            break;
+        case LightType::Sphere:
+            features_[FEATURE_SPHERE_LIGHTS] = 1;
+            break;
+        case LightType::Spot:
+            features_[FEATURE_SPOT_LIGHTS] = 1;
+            break;
+        case LightType::Tube:
+            features_[FEATURE_TUBE_LIGHTS] = 1;
+            break;
+        case LightType::Rect:
+            features_[FEATURE_RECT_LIGHTS] = 1;
+            break;
+        case LightType::Disk:
+            features_[FEATURE_DISK_LIGHTS] = 1;
+            break;
         }
     }
     const bool fits = scene.lights.size() <= LIGHT_UNIFORM_SLOTS &&
@@ -257,7 +278,8 @@ gpu::Bindings GpuScene::geometryBindings() const {
 }
 
 gpu::Bindings GpuScene::surfaceBindings() const {
-    static constexpr std::array<std::string_view, 4> linear{"textures0", "textures1", "textures2", "textures3"};
+    static constexpr std::array<std::string_view, 4> linear{"textures0", "textures1", "textures2",
+                                                            "textures3"};
     static constexpr std::array<std::string_view, 4> srgb{"texturesSrgb0", "texturesSrgb1", "texturesSrgb2",
                                                           "texturesSrgb3"};
     gpu::Bindings bindings{{"Materials", materialBuffer_}, {"uv1s", uv1Buffer_}};

@@ -1,5 +1,5 @@
-// A scene on the device: vertices, instances, materials, textures, lights and the ray world, each in the buffers
-// that the passes bind by name.
+// A scene on the device: vertices, instances, materials, textures, lights and the ray world, each in the
+// buffers that the passes bind by name.
 #pragma once
 
 #include "renderer/accel_gpu/gpu_ray_world.h"
@@ -18,8 +18,8 @@ struct DrawItem {
     std::uint32_t indexCount = 0;
     std::int32_t vertexOffset = 0;
     bool cullBackFaces = false;
-    bool clockwise = false; // mirrored
-    bool emits = false;     // transparent only
+    bool clockwise = false;    // mirrored
+    bool emits = false;        // transparent only
     glm::dvec3 boundsMin{0.0}; // world, metres
     glm::dvec3 boundsMax{0.0};
 };
@@ -45,10 +45,10 @@ class GpuScene {
     // Features and choices that the scene decides.
     const gpu::SpecValues& features() const { return features_; }
 
-    gpu::Bindings geometryBindings() const; // shaders/lib/geometry.glsl
-    gpu::Bindings surfaceBindings() const;  // shaders/lib/surface.glsl, geometry included
+    gpu::Bindings geometryBindings() const;                    // shaders/lib/geometry.glsl
+    gpu::Bindings surfaceBindings() const;                     // shaders/lib/surface.glsl, geometry included
     const GpuRayWorld& rayWorld() const { return *rayWorld_; } // shaders/lib/trace.glsl and alpha.glsl
-    gpu::Bindings lightBindings() const;    // shaders/lib/light_access.glsl
+    gpu::Bindings lightBindings() const;                       // shaders/lib/light_access.glsl
     const gpu::Buffer& indexBuffer() const { return indexBuffer_; }
 
   private:

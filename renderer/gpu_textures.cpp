@@ -75,8 +75,8 @@ glm::vec4 texelAt(const Image& image, int x, int y, bool srgb) {
     return {p[0] / 255.0f, p[1] / 255.0f, p[2] / 255.0f, p[3] / 255.0f};
 }
 
-// Resized to size x size: exact copies where the size fits, a bilinear tent (wider when shrinking) elsewhere, or
-// the nearest texel for images that are looked up without filtering.
+// Resized to size x size: exact copies where the size fits, a bilinear tent (wider when shrinking) elsewhere,
+// or the nearest texel for images that are looked up without filtering.
 Pixels resize(const Image& image, int size, bool srgb, bool nearest) {
     Pixels result{size, std::vector<glm::vec4>(std::size_t(size) * std::size_t(size))};
     const double scaleX = double(image.width) / size, scaleY = double(image.height) / size;
@@ -127,7 +127,8 @@ Pixels halve(const Pixels& source) {
 std::vector<std::uint8_t> toBytes(const Pixels& pixels, bool srgb) {
     std::vector<std::uint8_t> bytes(pixels.texels.size() * 4);
     for (std::size_t i = 0; i < pixels.texels.size(); ++i) {
-        for (int c = 0; c < 4; ++c) bytes[i * 4 + std::size_t(c)] = toByte(pixels.texels[i][c], srgb && c < 3);
+        for (int c = 0; c < 4; ++c)
+            bytes[i * 4 + std::size_t(c)] = toByte(pixels.texels[i][c], srgb && c < 3);
     }
     return bytes;
 }
@@ -152,7 +153,8 @@ Result<TextureArrays> makeTextureArrays(gpu::Device& device, const Scene& scene)
     std::array<std::uint32_t, TEXTURE_CLASSES> layers{};
     for (const int index : used) {
         const std::uint32_t textureClass = classFor(*scene.images[std::size_t(index)]);
-        arrays.placeOfImage[std::size_t(index)] = textureClass << TEXTURE_CLASS_SHIFT | layers[textureClass]++;
+        arrays.placeOfImage[std::size_t(index)] =
+            textureClass << TEXTURE_CLASS_SHIFT | layers[textureClass]++;
     }
     for (std::uint32_t i = 0; i < TEXTURE_CLASSES; ++i) {
         if (layers[i] == 0) continue;
@@ -162,17 +164,16 @@ Result<TextureArrays> makeTextureArrays(gpu::Device& device, const Scene& scene)
                                      device.limits().maxImageArrayLayers)};
         }
         const auto size = std::uint32_t(kSizes[i]);
-        arrays.images[i] = gpu::Image(
-            device, {.name = fmt::format("textures{}", i),
-                     .format = VK_FORMAT_R8G8B8A8_UNORM,
-                     .width = size,
-                     .height = size,
-                     .mips = std::uint32_t(std::log2(size)) + 1,
-                     .layers = layers[i],
-                     .arrayed = true,
-                     .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
-                     .secondFormat = VK_FORMAT_R8G8B8A8_SRGB,
-                     .cause = "textures"});
+        arrays.images[i] = gpu::Image(device, {.name = fmt::format("textures{}", i),
+                                               .format = VK_FORMAT_R8G8B8A8_UNORM,
+                                               .width = size,
+                                               .height = size,
+                                               .mips = std::uint32_t(std::log2(size)) + 1,
+                                               .layers = layers[i],
+                                               .arrayed = true,
+                                               .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                               .secondFormat = VK_FORMAT_R8G8B8A8_SRGB,
+                                               .cause = "textures"});
     }
     // Resizing is the slow part: two at a time, uploads in between on this thread.
     const std::vector<int> order(used.begin(), used.end());
@@ -208,8 +209,8 @@ GpuTextureRef makeTextureRef(const TextureRef& ref, const std::vector<std::uint3
                : mode == WrapMode::ClampToEdge ? TEXTURE_WRAP_CLAMP
                                                : TEXTURE_WRAP_MIRROR;
     };
-    gpu.flags = wrap(ref.wrapS) | wrap(ref.wrapT) << TEXTURE_WRAP_T_SHIFT | (ref.texCoord == 1 ? TEXTURE_UV1 : 0u) |
-                (ref.nearestFilter ? TEXTURE_NEAREST : 0u);
+    gpu.flags = wrap(ref.wrapS) | wrap(ref.wrapT) << TEXTURE_WRAP_T_SHIFT |
+                (ref.texCoord == 1 ? TEXTURE_UV1 : 0u) | (ref.nearestFilter ? TEXTURE_NEAREST : 0u);
     // KHR_texture_transform: translation * rotation * scale.
     const double c = std::cos(ref.rotationRad), s = std::sin(ref.rotationRad);
     gpu.uvRow0 = glm::vec3(c * ref.scale.x, s * ref.scale.y, ref.offset.x);

@@ -1,5 +1,5 @@
-// Material images in four layered arrays by size, resized to powers of two, with mip levels: one set of bindings
-// for any number of textures, without descriptor indexing.
+// Material images in four layered arrays by size, resized to powers of two, with mip levels: one set of
+// bindings for any number of textures, without descriptor indexing.
 #pragma once
 
 #include "renderer/document/result.h"

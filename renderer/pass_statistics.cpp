@@ -57,11 +57,13 @@ void describePasses(const gpu::PassTimes& times, const std::vector<std::string_v
     statistics.frameMs = statistics.directLightingMs = 0.0;
     for (const gpu::PassTimes::Entry& entry : times.entries()) {
         // A pass may run several times a frame (pyramid levels): its time is their sum.
-        const std::size_t perFrame = std::max<std::size_t>(1, entry.ms.size() / std::size_t(statistics.frames));
+        const std::size_t perFrame =
+            std::max<std::size_t>(1, entry.ms.size() / std::size_t(statistics.frames));
         std::vector<double> frames;
         for (std::size_t i = 0; i + perFrame <= entry.ms.size(); i += perFrame) {
             double sum = 0.0;
-            for (std::size_t j = 0; j < perFrame; ++j) sum += entry.ms[i + j];
+            for (std::size_t j = 0; j < perFrame; ++j)
+                sum += entry.ms[i + j];
             frames.push_back(sum);
         }
         if (frames.empty()) continue;
@@ -88,7 +90,8 @@ double processAgeMs() {
     if (name == std::string::npos) return 0.0;
     std::istringstream fields(text.substr(name + 2));
     std::string field;
-    for (int i = 3; i <= 22; ++i) fields >> field; // field 22 is the start time in clock ticks since boot
+    for (int i = 3; i <= 22; ++i)
+        fields >> field; // field 22 is the start time in clock ticks since boot
     timespec now{};
     clock_gettime(CLOCK_BOOTTIME, &now);
     const double startMs = std::atof(field.c_str()) * 1e3 / double(sysconf(_SC_CLK_TCK));

@@ -17,14 +17,22 @@ struct Layout {
 Layout layoutOf(const gpu::Image& image) {
     switch (image.desc().format) {
     case VK_FORMAT_R32_SFLOAT:
-    case VK_FORMAT_D32_SFLOAT: return {Channel::Float32, 1};
-    case VK_FORMAT_R32G32_SFLOAT: return {Channel::Float32, 2};
-    case VK_FORMAT_R32G32B32A32_SFLOAT: return {Channel::Float32, 4};
-    case VK_FORMAT_R16G16B16A16_SFLOAT: return {Channel::Float16, 4};
-    case VK_FORMAT_R32_UINT: return {Channel::Uint32, 1};
-    case VK_FORMAT_R32G32_UINT: return {Channel::Uint32, 2};
-    case VK_FORMAT_R8G8B8A8_UNORM: return {Channel::Unorm8, 4};
-    default: gpu::failContract(fmt::format("image '{}' has no float form", image.desc().name));
+    case VK_FORMAT_D32_SFLOAT:
+        return {Channel::Float32, 1};
+    case VK_FORMAT_R32G32_SFLOAT:
+        return {Channel::Float32, 2};
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return {Channel::Float32, 4};
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+        return {Channel::Float16, 4};
+    case VK_FORMAT_R32_UINT:
+        return {Channel::Uint32, 1};
+    case VK_FORMAT_R32G32_UINT:
+        return {Channel::Uint32, 2};
+    case VK_FORMAT_R8G8B8A8_UNORM:
+        return {Channel::Unorm8, 4};
+    default:
+        gpu::failContract(fmt::format("image '{}' has no float form", image.desc().name));
     }
 }
 
@@ -41,13 +49,22 @@ FloatImage toFloatImage(const gpu::Image& image) {
     const Layout layout = layoutOf(image);
     const std::vector<std::byte> bytes = image.download();
     FloatImage result{int(image.desc().width), int(image.desc().height), layout.channels, {}};
-    result.pixels.resize(std::size_t(result.width) * std::size_t(result.height) * std::size_t(layout.channels));
+    result.pixels.resize(std::size_t(result.width) * std::size_t(result.height) *
+                         std::size_t(layout.channels));
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {
         switch (layout.channel) {
-        case Channel::Float32: result.pixels[i] = valueAt<float>(bytes, i); break;
-        case Channel::Float16: result.pixels[i] = glm::unpackHalf1x16(valueAt<std::uint16_t>(bytes, i)); break;
-        case Channel::Uint32: result.pixels[i] = float(valueAt<std::uint32_t>(bytes, i)); break;
-        case Channel::Unorm8: result.pixels[i] = float(std::uint8_t(bytes[i])) / 255.0f; break;
+        case Channel::Float32:
+            result.pixels[i] = valueAt<float>(bytes, i);
+            break;
+        case Channel::Float16:
+            result.pixels[i] = glm::unpackHalf1x16(valueAt<std::uint16_t>(bytes, i));
+            break;
+        case Channel::Uint32:
+            result.pixels[i] = float(valueAt<std::uint32_t>(bytes, i));
+            break;
+        case Channel::Unorm8:
+            result.pixels[i] = float(std::uint8_t(bytes[i])) / 255.0f;
+            break;
         }
     }
     return result;

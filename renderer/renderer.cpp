@@ -87,7 +87,8 @@ GBufferProducer chooseProducer(const Settings& settings, const gpu::Device& devi
                                std::size_t pixels) {
     if (settings.gbuffer == GBufferChoice::Raster) return GBufferProducer::Raster;
     if (settings.gbuffer == GBufferChoice::Compute) return GBufferProducer::Compute;
-    if (!device.hasGeometryShader()) return GBufferProducer::Compute; // fragments would not know their triangle
+    if (!device.hasGeometryShader())
+        return GBufferProducer::Compute; // fragments would not know their triangle
     return device.isCpu() && pixels < triangles ? GBufferProducer::Compute : GBufferProducer::Raster;
 }
 
@@ -95,10 +96,12 @@ GBufferProducer chooseProducer(const Settings& settings, const gpu::Device& devi
 
 struct Renderer::Impl {
     Impl(const Scene& source, const RenderOptions& renderOptions)
-        : startMs(nowMs()), scene(source), options(renderOptions), device(deviceOptions()), resources(device) {}
+        : startMs(nowMs()), scene(source), options(renderOptions), device(deviceOptions()),
+          resources(device) {}
 
     std::optional<Error> prepare();
     Result<Picture> render(const RenderProgress& progress);
+    void poisonTargets();
     void runFrame(std::uint32_t index, int widthPx, int heightPx, gpu::PassTimes& passTimes);
     void compilePipelines();
     Picture readPicture() const;
@@ -133,29 +136,31 @@ std::optional<Error> Renderer::Impl::prepare() {
     camera = chosen.value();
     if (scene.lights.empty()) {
         addDefaultLight(scene, camera);
-        statistics.notes.push_back("the scene has no lights; a default directional light of 1000 lux stands in");
+        statistics.notes.push_back(
+            "the scene has no lights; a default directional light of 1000 lux stands in");
     }
     Result<LtcTable> table = loadLtcTable(contentDirectory() / "ltc_ggx.bin");
     if (!table) return Error{table.error()};
     useLtcTable(std::move(table.value()));
 
     const bool metered = options.settings.exposureEv100.automatic && !scene.hasExposure;
-    exposureEv100 = metered ? deriveExposureEv100(scene)
-                            : options.settings.exposureEv100.valueOr(scene.exposureEv100);
+    exposureEv100 =
+        metered ? deriveExposureEv100(scene) : options.settings.exposureEv100.valueOr(scene.exposureEv100);
     if (options.settings.tracer == TracerChoice::RayQuery && !device.hasRayQuery()) {
         return Error{fmt::format("device '{}' has no ray query; use tracer=compute", device.name())};
     }
-    const bool rayQuery = options.settings.tracer == TracerChoice::RayQuery ||
-                          (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
+    const bool rayQuery =
+        options.settings.tracer == TracerChoice::RayQuery ||
+        (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
     plan.tracer = rayQuery ? TraceBackEnd::RayQuery : TraceBackEnd::ComputeBvh;
     Result<std::unique_ptr<GpuScene>> uploaded =
         GpuScene::create(device, scene, anchorFor(camera, worldBounds(scene)), exposureEv100, plan.tracer);
     if (!uploaded) return Error{uploaded.error()};
     gpuScene = std::move(uploaded.value());
     if (gpuScene->derivedRanges() > 0) {
-        statistics.notes.push_back(fmt::format(
-            "{} of {} lights have no range and got a derived one: less than 1/1000 of middle grey is lost per light",
-            gpuScene->derivedRanges(), gpuScene->lightCount()));
+        statistics.notes.push_back(fmt::format("{} of {} lights have no range and got a derived one: less "
+                                               "than 1/1000 of middle grey is lost per light",
+                                               gpuScene->derivedRanges(), gpuScene->lightCount()));
     }
 
     plan.producer = chooseProducer(options.settings, device, gpuScene->triangles(),
@@ -167,7 +172,8 @@ std::optional<Error> Renderer::Impl::prepare() {
 
     features = gpuScene->features();
     if (options.allFeatures) {
-        for (std::uint32_t feature = 0; feature < shared::FEATURE_COUNT; ++feature) features[feature] = 1;
+        for (std::uint32_t feature = 0; feature < shared::FEATURE_COUNT; ++feature)
+            features[feature] = 1;
         features[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
     }
     features[shared::CHOICE_ESTIMATOR] =
@@ -176,15 +182,30 @@ std::optional<Error> Renderer::Impl::prepare() {
         options.settings.toneMap == ToneMap::None ? shared::TONE_MAP_NONE : shared::TONE_MAP_NEUTRAL;
     features[shared::CHOICE_VIEW] = std::uint32_t(plan.view);
 
-    targets = std::make_unique<Targets>(device, std::uint32_t(options.width), std::uint32_t(options.height),
-                                        plan.producer == GBufferProducer::Raster, plan.view != shared::VIEW_FINAL);
+    targets =
+        std::make_unique<Targets>(device, std::uint32_t(options.width), std::uint32_t(options.height),
+                                  plan.producer == GBufferProducer::Raster, plan.view != shared::VIEW_FINAL);
+    if (options.poisonTargets) poisonTargets();
     passes = std::make_unique<FramePasses>(resources, plan);
-    frameBuffer = gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                                       gpu::MemoryUse::HostWrite, "other"});
-    counterBuffer = gpu::Buffer(device, {"counters", shared::COUNTER_COUNT * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                         gpu::MemoryUse::HostReadback, "other"});
+    frameBuffer =
+        gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                             gpu::MemoryUse::HostWrite, "other"});
+    counterBuffer =
+        gpu::Buffer(device, {"counters", shared::COUNTER_COUNT * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                             gpu::MemoryUse::HostReadback, "other"});
     world = gpuScene->rayWorld().traceBindings();
     return std::nullopt;
+}
+
+void Renderer::Impl::poisonTargets() {
+    VkClearColorValue notANumber{};
+    for (std::uint32_t& word : notANumber.uint32)
+        word = 0x7fc00000u;
+    gpu::Commands commands(device);
+    for (const gpu::Image* image : targets->all()) {
+        if (image != &targets->rasterDepth) commands.clearColor(*image, notANumber);
+    }
+    commands.submitAndWait();
 }
 
 void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gpu::PassTimes& passTimes) {
@@ -212,13 +233,14 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
 }
 
-// CPU drivers compile at the first dispatch. A frame of one tile makes them do it apart from the work, so that
-// the time is known; the frame after it starts afresh.
+// CPU drivers compile at the first dispatch. A frame of one tile makes them do it apart from the work, so
+// that the time is known; the frame after it starts afresh.
 void Renderer::Impl::compilePipelines() {
     gpu::PassTimes compilation;
     runFrame(0, std::min(8, options.width), std::min(8, options.height), compilation);
     for (const gpu::PassTimes::Entry& entry : compilation.entries()) {
-        statistics.firstDispatchMs.emplace_back(entry.name, *std::max_element(entry.ms.begin(), entry.ms.end()));
+        statistics.firstDispatchMs.emplace_back(entry.name,
+                                                *std::max_element(entry.ms.begin(), entry.ms.end()));
     }
     statistics.rays = lightsInRange = surfacePixels = 0;
 }
@@ -276,8 +298,12 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
 Renderer::Renderer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Renderer::~Renderer() = default;
 
-std::span<const NamedChoice> Renderer::views() { return viewChoices(); }
-std::span<const NamedChoice> Renderer::methods() { return methodChoices(); }
+std::span<const NamedChoice> Renderer::views() {
+    return viewChoices();
+}
+std::span<const NamedChoice> Renderer::methods() {
+    return methodChoices();
+}
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const Scene& scene, const RenderOptions& options) {
     try {
@@ -297,7 +323,9 @@ Result<Picture> Renderer::render(const RenderProgress& progress) {
     }
 }
 
-FrameStatistics Renderer::statistics() const { return impl_->statistics; }
+FrameStatistics Renderer::statistics() const {
+    return impl_->statistics;
+}
 
 Result<std::vector<NamedImage>> Renderer::targets() {
     std::vector<NamedImage> result;

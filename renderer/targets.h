@@ -11,20 +11,20 @@ namespace kilolux {
 struct Targets {
     Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, bool raster, bool debugView);
 
-    gpu::Image visibility;   // RG32UI: instance, primitive; 0xffffffff twice without a surface
-    gpu::Image rasterDepth;  // D32, reversed; only with the raster producer
-    gpu::Image gDepth;       // R32F: linear depth, metres
-    gpu::Image gNormals;     // RG32UI, see shaders/lib/gbuffer.glsl
-    gpu::Image gMaterial;    // RG32UI
-    gpu::Image gEmissive;    // RGBA16F, exposed
-    gpu::Image pyramid;      // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
-    gpu::Image litDiffuse;   // RGBA32F, exposed, demodulated by the diffuse albedo
-    gpu::Image litSpecular;  // RGBA32F, exposed
-    gpu::Image lightCounts;  // R32UI: lights in range, lights seen << 16
-    gpu::Image sceneColor;   // RGBA32F, exposed: this frame's picture
-    gpu::Image meanColor;    // RGBA32F, exposed: mean of the frames
-    gpu::Image viewValues;   // RGBA32F: raw values of a debug view; only with one
-    gpu::Image display;      // RGBA8, sRGB-encoded
+    gpu::Image visibility;  // RG32UI: instance, primitive; 0xffffffff twice without a surface
+    gpu::Image rasterDepth; // D32, reversed; only with the raster producer
+    gpu::Image gDepth;      // R32F: linear depth, metres
+    gpu::Image gNormals;    // RG32UI, see shaders/lib/gbuffer.glsl
+    gpu::Image gMaterial;   // RG32UI
+    gpu::Image gEmissive;   // RGBA16F, exposed
+    gpu::Image pyramid;     // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
+    gpu::Image litDiffuse;  // RGBA32F, exposed, demodulated by the diffuse albedo
+    gpu::Image litSpecular; // RGBA32F, exposed
+    gpu::Image lightCounts; // R32UI: lights in range, lights seen << 16
+    gpu::Image sceneColor;  // RGBA32F, exposed: this frame's picture
+    gpu::Image meanColor;   // RGBA32F, exposed: mean of the frames
+    gpu::Image viewValues;  // RGBA32F: raw values of a debug view; only with one
+    gpu::Image display;     // RGBA8, sRGB-encoded
 
     std::vector<const gpu::Image*> all() const; // those that exist
 };

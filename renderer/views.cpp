@@ -35,9 +35,13 @@ constexpr std::array<NamedChoice, 3> kMethods{{
 
 } // namespace
 
-std::span<const NamedChoice> viewChoices() { return kViews; }
+std::span<const NamedChoice> viewChoices() {
+    return kViews;
+}
 
-std::span<const NamedChoice> methodChoices() { return kMethods; }
+std::span<const NamedChoice> methodChoices() {
+    return kMethods;
+}
 
 std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::string_view name) {
     if (name.empty()) return 0;

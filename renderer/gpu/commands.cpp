@@ -31,16 +31,23 @@ UsageInfo usageInfo(Usage usage) {
     switch (usage) {
     case Usage::ComputeSampled:
         return {compute, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    case Usage::ComputeStorageRead: return {compute, storageRead, 0, general};
-    case Usage::ComputeStorageWrite: return {compute, 0, storageWrite, general};
-    case Usage::ComputeStorageReadWrite: return {compute, storageRead, storageWrite, general};
-    case Usage::ComputeUniform: return {compute, VK_ACCESS_2_UNIFORM_READ_BIT, 0, general};
+    case Usage::ComputeStorageRead:
+        return {compute, storageRead, 0, general};
+    case Usage::ComputeStorageWrite:
+        return {compute, 0, storageWrite, general};
+    case Usage::ComputeStorageReadWrite:
+        return {compute, storageRead, storageWrite, general};
+    case Usage::ComputeUniform:
+        return {compute, VK_ACCESS_2_UNIFORM_READ_BIT, 0, general};
     case Usage::ComputeAccelerationStructure:
         return {compute, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0, general};
     case Usage::GraphicsSampled:
-        return {kGraphicsShaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    case Usage::GraphicsStorageRead: return {kGraphicsShaders, storageRead, 0, general};
-    case Usage::GraphicsUniform: return {kGraphicsShaders, VK_ACCESS_2_UNIFORM_READ_BIT, 0, general};
+        return {kGraphicsShaders, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    case Usage::GraphicsStorageRead:
+        return {kGraphicsShaders, storageRead, 0, general};
+    case Usage::GraphicsUniform:
+        return {kGraphicsShaders, VK_ACCESS_2_UNIFORM_READ_BIT, 0, general};
     case Usage::ColorAttachment:
         return {VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
                 VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -59,7 +66,8 @@ UsageInfo usageInfo(Usage usage) {
         return {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                 VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
     case Usage::AccelerationBuildRead:
-        return {build, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0, general};
+        return {build, VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR, 0,
+                general};
     case Usage::AccelerationBuildWrite:
         return {build, VK_ACCESS_2_ACCELERATION_STRUCTURE_READ_BIT_KHR,
                 VK_ACCESS_2_ACCELERATION_STRUCTURE_WRITE_BIT_KHR, general};
@@ -101,7 +109,8 @@ Commands::Commands(Device& device, PassTimes* times) : device_(device), times_(t
 }
 
 Commands::~Commands() {
-    for (VkDescriptorPool pool : descriptorPools_) vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
+    for (VkDescriptorPool pool : descriptorPools_)
+        vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
     if (queries_) vkDestroyQueryPool(device_.handle(), queries_, nullptr);
     vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
@@ -169,7 +178,8 @@ void Commands::need(AccessState& state, Usage usage, const Image* image, std::ui
     if (writes) {
         sourceStage = state.writeStage | state.readStages;
         sourceAccess = state.writeAccess;
-    } else if (state.writeStage && ((info.stage & ~state.visibleStages) || (info.read & ~state.visibleAccess))) {
+    } else if (state.writeStage &&
+               ((info.stage & ~state.visibleStages) || (info.read & ~state.visibleAccess))) {
         sourceStage = state.writeStage;
         sourceAccess = state.writeAccess;
     }
@@ -205,12 +215,17 @@ void Commands::need(AccessState& state, Usage usage, const Image* image, std::ui
     if (image) state.layout = info.layout;
 }
 
-void Commands::use(const Buffer& buffer, Usage usage) { need(buffer.state(), usage, nullptr, 0); }
+void Commands::use(const Buffer& buffer, Usage usage) {
+    need(buffer.state(), usage, nullptr, 0);
+}
 
-void Commands::use(const Image& image, std::uint32_t mip, Usage usage) { need(image.state(mip), usage, &image, mip); }
+void Commands::use(const Image& image, std::uint32_t mip, Usage usage) {
+    need(image.state(mip), usage, &image, mip);
+}
 
 void Commands::use(const Image& image, Usage usage) {
-    for (std::uint32_t mip = 0; mip < image.desc().mips; ++mip) use(image, mip, usage);
+    for (std::uint32_t mip = 0; mip < image.desc().mips; ++mip)
+        use(image, mip, usage);
 }
 
 void Commands::flushBarriers() {
@@ -227,8 +242,8 @@ void Commands::flushBarriers() {
     memoryBarrier_ = {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
 }
 
-void Commands::copyBuffer(const Buffer& from, VkDeviceSize fromOffset, const Buffer& to, VkDeviceSize toOffset,
-                          VkDeviceSize bytes) {
+void Commands::copyBuffer(const Buffer& from, VkDeviceSize fromOffset, const Buffer& to,
+                          VkDeviceSize toOffset, VkDeviceSize bytes) {
     use(from, Usage::TransferRead);
     use(to, Usage::TransferWrite);
     flushBarriers();
@@ -254,7 +269,8 @@ void Commands::copyBufferToImage(const Buffer& from, VkDeviceSize offset, const 
     use(to, mip, Usage::TransferWrite);
     flushBarriers();
     const VkBufferImageCopy region = wholeMip(to, mip, layer, offset);
-    vkCmdCopyBufferToImage(handle(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    vkCmdCopyBufferToImage(handle(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                           &region);
 }
 
 void Commands::copyImageToBuffer(const Image& from, std::uint32_t mip, std::uint32_t layer, const Buffer& to,
@@ -263,7 +279,8 @@ void Commands::copyImageToBuffer(const Image& from, std::uint32_t mip, std::uint
     use(to, Usage::TransferWrite);
     flushBarriers();
     const VkBufferImageCopy region = wholeMip(from, mip, layer, offset);
-    vkCmdCopyImageToBuffer(handle(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1, &region);
+    vkCmdCopyImageToBuffer(handle(), from.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to.handle(), 1,
+                           &region);
 }
 
 void Commands::clearColor(const Image& image, const VkClearColorValue& value) {
@@ -289,7 +306,8 @@ VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
               VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLER}) {
             sizes.push_back({type, kSetsPerPool * 12});
         }
-        if (device_.hasRayQuery()) sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, kSetsPerPool});
+        if (device_.hasRayQuery())
+            sizes.push_back({VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR, kSetsPerPool});
         VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
         info.maxSets = kSetsPerPool;
         info.poolSizeCount = std::uint32_t(sizes.size());
@@ -309,6 +327,42 @@ VkDescriptorSet Commands::allocateSet(VkDescriptorSetLayout layout) {
     return set;
 }
 
+void Commands::capture(std::string_view name, const Image& image, std::uint32_t mip) {
+    const ImageDesc& desc = image.desc();
+    PendingCapture pending;
+    pending.result = {std::string(name),
+                      desc.format,
+                      std::max(1u, desc.width >> mip),
+                      std::max(1u, desc.height >> mip),
+                      {}};
+    const VkDeviceSize bytes =
+        VkDeviceSize(pending.result.width) * pending.result.height * texelBytes(desc.format);
+    pending.staging = Buffer(
+        device_, {"capture", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::HostReadback, "readback"});
+    copyImageToBuffer(image, mip, 0, pending.staging, 0);
+    std::erase_if(captures_, [&](const PendingCapture& other) { return other.result.name == name; });
+    captures_.push_back(std::move(pending));
+}
+
+void Commands::capture(std::string_view name, const Buffer& buffer) {
+    PendingCapture pending;
+    pending.result.name = name;
+    pending.staging = Buffer(device_, {"capture", buffer.bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                       MemoryUse::HostReadback, "readback"});
+    copyBuffer(buffer, 0, pending.staging, 0, buffer.bytes());
+    std::erase_if(captures_, [&](const PendingCapture& other) { return other.result.name == name; });
+    captures_.push_back(std::move(pending));
+}
+
+std::vector<Captured> Commands::captured() const {
+    std::vector<Captured> results;
+    for (const PendingCapture& pending : captures_) {
+        results.push_back(pending.result);
+        results.back().bytes = pending.staging.download();
+    }
+    return results;
+}
+
 void Commands::submitOpen() {
     closeBuffer();
     if (!recorded_.empty()) device_.submitAndWait(recorded_);
@@ -319,7 +373,8 @@ void Commands::collectTimers() {
     if (timers_.empty()) return;
     std::vector<std::uint64_t> ticks(queryCount_);
     KX_VK(vkGetQueryPoolResults(device_.handle(), queries_, 0, queryCount_, ticks.size() * sizeof(ticks[0]),
-                                ticks.data(), sizeof(ticks[0]), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+                                ticks.data(), sizeof(ticks[0]),
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     const double msPerTick = double(device_.limits().timestampPeriod) * 1e-6;
     for (const Timer& timer : timers_) {
         times_->add(timer.name, double(ticks[timer.firstQuery + 1] - ticks[timer.firstQuery]) * msPerTick);

@@ -44,6 +44,14 @@ enum class Usage {
     AccelerationBuildWrite,
 };
 
+// What a pass had written right after it ran, tightly packed; see Commands::captureAfter.
+struct Captured {
+    std::string name;                      // GLSL name in the pass
+    VkFormat format = VK_FORMAT_UNDEFINED; // UNDEFINED for buffers
+    std::uint32_t width = 0, height = 0;   // texels of an image's level
+    std::vector<std::byte> bytes;
+};
+
 class Commands {
   public:
     explicit Commands(Device& device, PassTimes* times = nullptr);
@@ -74,6 +82,16 @@ class Commands {
     void fillBuffer(const Buffer& buffer, std::uint32_t value);
 
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
+
+    // Keeps what the named pass writes (its last recording), as the pass's own declaration says: for tests
+    // and for looking into a frame. Read with captured() after submitAndWait().
+    void captureAfter(std::string_view passName) { capturePass_ = passName; }
+    bool captures(std::string_view passName) const {
+        return !capturePass_.empty() && capturePass_ == passName;
+    }
+    void capture(std::string_view name, const Image& image, std::uint32_t mip);
+    void capture(std::string_view name, const Buffer& buffer);
+    std::vector<Captured> captured() const;
 
     void submitAndWait();
 
@@ -106,6 +124,12 @@ class Commands {
     std::uint32_t queryCount_ = 0;
     std::vector<Timer> timers_;
     bool inPass_ = false;
+    struct PendingCapture {
+        Captured result;
+        Buffer staging;
+    };
+    std::string capturePass_;
+    std::vector<PendingCapture> captures_;
 };
 
 } // namespace kilolux::gpu

@@ -15,7 +15,8 @@ namespace {
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                    VkDebugUtilsMessageTypeFlagsEXT,
-                                                   const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+                                                   const VkDebugUtilsMessengerCallbackDataEXT* data,
+                                                   void* user) {
     const std::string_view message = data->pMessage ? data->pMessage : "?";
     // What GPU-assisted validation says of its own set-up is no finding.
     const bool setup = message.find("GPU-Assisted Validation Setup") != std::string_view::npos ||
@@ -41,10 +42,14 @@ std::vector<VkExtensionProperties> deviceExtensions(VkPhysicalDevice device) {
 int scoreDevice(const VkPhysicalDeviceProperties& properties) {
     if (properties.apiVersion < VK_API_VERSION_1_3) return -1;
     switch (properties.deviceType) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    default: return 1;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+        return 2;
+    default:
+        return 1;
     }
 }
 
@@ -114,10 +119,10 @@ void Device::createInstance() {
     features.pEnabledValidationFeatures = enables;
 
     VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
-    messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                                VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                            VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    messenger.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     messenger.pfnUserCallback = onValidationMessage;
     messenger.pUserData = this;
 
@@ -150,9 +155,9 @@ void Device::choosePhysicalDevice() {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(candidate, &properties);
         seen += fmt::format("{}'{}'", seen.empty() ? "" : ", ", properties.deviceName);
-        const bool wanted = options_.nameContains.empty() ||
-                            std::string_view(properties.deviceName).find(options_.nameContains) !=
-                                std::string_view::npos;
+        const bool wanted =
+            options_.nameContains.empty() ||
+            std::string_view(properties.deviceName).find(options_.nameContains) != std::string_view::npos;
         const int score = scoreDevice(properties);
         if (wanted && score > bestScore) {
             bestScore = score;
@@ -239,7 +244,8 @@ void Device::createDevice() {
     features.features.independentBlend = VK_TRUE;
     hasGeometryShader_ = supported.features.geometryShader;
     features.features.geometryShader = supported.features.geometryShader;
-    features.features.shaderStorageImageExtendedFormats = supported.features.shaderStorageImageExtendedFormats;
+    features.features.shaderStorageImageExtendedFormats =
+        supported.features.shaderStorageImageExtendedFormats;
     features.features.samplerAnisotropy = supported.features.samplerAnisotropy;
     // GPU-assisted validation writes from every stage.
     features.features.fragmentStoresAndAtomics = supported.features.fragmentStoresAndAtomics;
@@ -262,7 +268,8 @@ void Device::createDevice() {
 
 void Device::loadEntryPoints() {
     const auto load = [this](auto& pointer, const char* name) {
-        pointer = reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(vkGetDeviceProcAddr(device_, name));
+        pointer =
+            reinterpret_cast<std::remove_reference_t<decltype(pointer)>>(vkGetDeviceProcAddr(device_, name));
     };
     if (hasDebugUtils_) {
         load(setObjectName_, "vkSetDebugUtilsObjectNameEXT");
@@ -282,7 +289,8 @@ std::filesystem::path Device::pipelineCachePath() const {
     const std::filesystem::path directory = cacheDirectory();
     if (directory.empty() || !options_.diskCache) return {};
     std::string uuid;
-    for (const std::uint8_t byte : properties_.pipelineCacheUUID) uuid += fmt::format("{:02x}", byte);
+    for (const std::uint8_t byte : properties_.pipelineCacheUUID)
+        uuid += fmt::format("{:02x}", byte);
     return directory / fmt::format("pipelines-{}.bin", uuid);
 }
 
@@ -353,20 +361,34 @@ void Device::setName(VkObjectType type, std::uint64_t object, const char* name) 
 
 const char* resultName(VkResult result) {
     switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: return "VK_ERROR_OUT_OF_HOST_MEMORY";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
-    case VK_ERROR_INITIALIZATION_FAILED: return "VK_ERROR_INITIALIZATION_FAILED";
-    case VK_ERROR_DEVICE_LOST: return "VK_ERROR_DEVICE_LOST";
-    case VK_ERROR_MEMORY_MAP_FAILED: return "VK_ERROR_MEMORY_MAP_FAILED";
-    case VK_ERROR_LAYER_NOT_PRESENT: return "VK_ERROR_LAYER_NOT_PRESENT (is the validation layer installed?)";
-    case VK_ERROR_EXTENSION_NOT_PRESENT: return "VK_ERROR_EXTENSION_NOT_PRESENT";
-    case VK_ERROR_FEATURE_NOT_PRESENT: return "VK_ERROR_FEATURE_NOT_PRESENT";
-    case VK_ERROR_INCOMPATIBLE_DRIVER: return "VK_ERROR_INCOMPATIBLE_DRIVER (no Vulkan driver installed?)";
-    case VK_ERROR_TOO_MANY_OBJECTS: return "VK_ERROR_TOO_MANY_OBJECTS";
-    case VK_ERROR_FORMAT_NOT_SUPPORTED: return "VK_ERROR_FORMAT_NOT_SUPPORTED";
-    case VK_ERROR_FRAGMENTED_POOL: return "VK_ERROR_FRAGMENTED_POOL";
-    case VK_ERROR_OUT_OF_POOL_MEMORY: return "VK_ERROR_OUT_OF_POOL_MEMORY";
-    default: return "an unnamed VkResult";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return "VK_ERROR_OUT_OF_HOST_MEMORY";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "VK_ERROR_OUT_OF_DEVICE_MEMORY";
+    case VK_ERROR_INITIALIZATION_FAILED:
+        return "VK_ERROR_INITIALIZATION_FAILED";
+    case VK_ERROR_DEVICE_LOST:
+        return "VK_ERROR_DEVICE_LOST";
+    case VK_ERROR_MEMORY_MAP_FAILED:
+        return "VK_ERROR_MEMORY_MAP_FAILED";
+    case VK_ERROR_LAYER_NOT_PRESENT:
+        return "VK_ERROR_LAYER_NOT_PRESENT (is the validation layer installed?)";
+    case VK_ERROR_EXTENSION_NOT_PRESENT:
+        return "VK_ERROR_EXTENSION_NOT_PRESENT";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+        return "VK_ERROR_FEATURE_NOT_PRESENT";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return "VK_ERROR_INCOMPATIBLE_DRIVER (no Vulkan driver installed?)";
+    case VK_ERROR_TOO_MANY_OBJECTS:
+        return "VK_ERROR_TOO_MANY_OBJECTS";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED:
+        return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+    case VK_ERROR_FRAGMENTED_POOL:
+        return "VK_ERROR_FRAGMENTED_POOL";
+    case VK_ERROR_OUT_OF_POOL_MEMORY:
+        return "VK_ERROR_OUT_OF_POOL_MEMORY";
+    default:
+        return "an unnamed VkResult";
     }
 }
 
@@ -375,6 +397,8 @@ void failVulkan(const char* file, int line, const char* call, VkResult result) {
                                   static_cast<int>(result)));
 }
 
-void failContract(const std::string& what) { throw std::logic_error(what); }
+void failContract(const std::string& what) {
+    throw std::logic_error(what);
+}
 
 } // namespace kilolux::gpu

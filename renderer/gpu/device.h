@@ -15,8 +15,8 @@ namespace kilolux::gpu {
 
 enum class Validation {
     Off,
-    On,           // core and synchronization, the latter across submits too
-    GpuAssisted,  // core and GPU-assisted (the layer does not combine it with synchronization)
+    On,          // core and synchronization, the latter across submits too
+    GpuAssisted, // core and GPU-assisted (the layer does not combine it with synchronization)
 };
 
 struct DeviceOptions {

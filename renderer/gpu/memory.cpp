@@ -21,13 +21,16 @@ MemoryAllocator::MemoryAllocator(VkPhysicalDevice physicalDevice, VkDevice devic
 }
 
 MemoryAllocator::~MemoryAllocator() {
-    for (const auto& [memory, size] : rawSizes_) vkFreeMemory(device_, memory, nullptr);
+    for (const auto& [memory, size] : rawSizes_)
+        vkFreeMemory(device_, memory, nullptr);
 }
 
 std::uint32_t MemoryAllocator::chooseType(std::uint32_t allowedBits, MemoryUse use) const {
     VkMemoryPropertyFlags required = 0, preferred = 0;
     switch (use) {
-    case MemoryUse::DeviceOnly: preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT; break;
+    case MemoryUse::DeviceOnly:
+        preferred = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        break;
     case MemoryUse::HostWrite:
         required = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
         preferred = VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -54,7 +57,8 @@ bool MemoryAllocator::isMappable(std::uint32_t memoryType, MemoryUse use) const 
     return visible && !(use == MemoryUse::DeviceOnly && options_.forceStaging);
 }
 
-VkDeviceMemory MemoryAllocator::allocateRaw(VkDeviceSize bytes, std::uint32_t memoryType, bool deviceAddress) {
+VkDeviceMemory MemoryAllocator::allocateRaw(VkDeviceSize bytes, std::uint32_t memoryType,
+                                            bool deviceAddress) {
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
@@ -77,7 +81,8 @@ VkDeviceMemory MemoryAllocator::allocateRaw(VkDeviceSize bytes, std::uint32_t me
 std::uint32_t MemoryAllocator::poolFor(std::uint32_t memoryType, ResourceKind kind, bool deviceAddress) {
     for (std::uint32_t i = 0; i < pools_.size(); ++i) {
         const Pool& pool = pools_[i];
-        if (pool.memoryType == memoryType && pool.kind == kind && pool.deviceAddress == deviceAddress) return i;
+        if (pool.memoryType == memoryType && pool.kind == kind && pool.deviceAddress == deviceAddress)
+            return i;
     }
     pools_.push_back({memoryType, kind, deviceAddress, {}});
     return static_cast<std::uint32_t>(pools_.size() - 1);
@@ -128,7 +133,7 @@ Allocation MemoryAllocator::allocate(const VkMemoryRequirements& requirements, M
         if (mappable) KX_VK(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
         return static_cast<std::byte*>(mapped);
     };
-    if (result.size >= kBlockBytes) {
+    if (result.size >= kDedicatedBytes) {
         result.memory = allocateRaw(result.size, type, deviceAddress);
         result.mapped = map(result.memory);
     } else {
@@ -170,8 +175,9 @@ void MemoryAllocator::free(const Allocation& allocation) {
         return;
     }
     std::vector<Range>& ranges = pools_[allocation.pool].blocks[std::size_t(allocation.block)].freeRanges;
-    auto next = std::lower_bound(ranges.begin(), ranges.end(), allocation.offset,
-                                 [](const Range& range, VkDeviceSize offset) { return range.offset < offset; });
+    auto next =
+        std::lower_bound(ranges.begin(), ranges.end(), allocation.offset,
+                         [](const Range& range, VkDeviceSize offset) { return range.offset < offset; });
     next = ranges.insert(next, {allocation.offset, allocation.size});
     if (auto after = next + 1; after != ranges.end() && next->offset + next->size == after->offset) {
         next->size += after->size;

@@ -43,9 +43,12 @@ VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderM
 
 VkShaderStageFlags stageFlag(ShaderStage stage) {
     switch (stage) {
-    case ShaderStage::Compute: return VK_SHADER_STAGE_COMPUTE_BIT;
-    case ShaderStage::Vertex: return VK_SHADER_STAGE_VERTEX_BIT;
-    case ShaderStage::Fragment: return VK_SHADER_STAGE_FRAGMENT_BIT;
+    case ShaderStage::Compute:
+        return VK_SHADER_STAGE_COMPUTE_BIT;
+    case ShaderStage::Vertex:
+        return VK_SHADER_STAGE_VERTEX_BIT;
+    case ShaderStage::Fragment:
+        return VK_SHADER_STAGE_FRAGMENT_BIT;
     }
     failContract("unknown ShaderStage");
 }
@@ -63,7 +66,8 @@ ShaderCode compileOrFail(const std::string& file, const std::vector<std::string>
 PassResources::PassResources(Device& device) : device_(device) {}
 
 PassResources::~PassResources() {
-    for (const auto& [kind, sampler] : samplers_) vkDestroySampler(device_.handle(), sampler, nullptr);
+    for (const auto& [kind, sampler] : samplers_)
+        vkDestroySampler(device_.handle(), sampler, nullptr);
 }
 
 VkSampler PassResources::sampler(SamplerKind kind) {
@@ -87,8 +91,8 @@ Binding PassResources::dummy(const ShaderBinding& binding) {
     const VkFormat format = binding.format != VK_FORMAT_UNDEFINED ? binding.format
                             : binding.integer                     ? VK_FORMAT_R32_UINT
                                                                   : VK_FORMAT_R8G8B8A8_UNORM;
-    const std::string key = fmt::format("dummy {} {} {} {}", int(binding.type), int(format), binding.dimension,
-                                        binding.arrayed);
+    const std::string key =
+        fmt::format("dummy {} {} {} {}", int(binding.type), int(format), binding.dimension, binding.arrayed);
     if (binding.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR) {
         failContract(fmt::format("'{}': an acceleration structure has no dummy", binding.name));
     }
@@ -169,23 +173,27 @@ void PassBase::build(std::vector<ShaderCode*> stages) {
 
 void PassBase::checkDeclaration() const {
     for (const ShaderBinding& binding : bindings_) {
-        const auto use = std::find_if(uses_.begin(), uses_.end(),
-                                      [&](const PassUse& candidate) { return candidate.name == binding.name; });
+        const auto use = std::find_if(uses_.begin(), uses_.end(), [&](const PassUse& candidate) {
+            return candidate.name == binding.name;
+        });
         if (use == uses_.end()) {
-            failContract(fmt::format("pass '{}': the shader uses '{}', which is not declared", name_, binding.name));
+            failContract(
+                fmt::format("pass '{}': the shader uses '{}', which is not declared", name_, binding.name));
         }
         const bool declaredRead = use->access != Access::Write;
         const bool declaredWrite = use->access != Access::Read;
         if (declaredRead != binding.reads || declaredWrite != binding.writes) {
-            failContract(fmt::format("pass '{}': '{}' is declared as {}{} but the shader has it as {}{}", name_,
-                                     binding.name, declaredRead ? "read " : "", declaredWrite ? "write" : "",
-                                     binding.reads ? "read " : "", binding.writes ? "write" : ""));
+            failContract(fmt::format("pass '{}': '{}' is declared as {}{} but the shader has it as {}{}",
+                                     name_, binding.name, declaredRead ? "read " : "",
+                                     declaredWrite ? "write" : "", binding.reads ? "read " : "",
+                                     binding.writes ? "write" : ""));
         }
     }
     for (const PassUse& use : uses_) {
         const bool found = std::any_of(bindings_.begin(), bindings_.end(),
                                        [&](const auto& binding) { return binding.name == use.name; });
-        if (!found) failContract(fmt::format("pass '{}': '{}' is declared but the shader lacks it", name_, use.name));
+        if (!found)
+            failContract(fmt::format("pass '{}': '{}' is declared but the shader lacks it", name_, use.name));
     }
 }
 
@@ -201,9 +209,12 @@ Usage usageOf(const ShaderBinding& binding, bool graphics) {
     switch (binding.type) {
     case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER:
         return graphics ? Usage::GraphicsSampled : Usage::ComputeSampled;
-    case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER: return graphics ? Usage::GraphicsUniform : Usage::ComputeUniform;
-    case VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR: return Usage::ComputeAccelerationStructure;
-    default: break;
+    case VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER:
+        return graphics ? Usage::GraphicsUniform : Usage::ComputeUniform;
+    case VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR:
+        return Usage::ComputeAccelerationStructure;
+    default:
+        break;
     }
     if (graphics) return Usage::GraphicsStorageRead;
     if (!binding.writes) return Usage::ComputeStorageRead;
@@ -240,7 +251,8 @@ VkDescriptorSet PassBase::prepare(Commands& commands, const Bindings& bindings) 
         const Binding* bound = find(bindings, slot.name);
         std::optional<Binding> dummy;
         if (!bound) {
-            const auto use = std::find_if(uses_.begin(), uses_.end(), [&](const auto& u) { return u.name == slot.name; });
+            const auto use =
+                std::find_if(uses_.begin(), uses_.end(), [&](const auto& u) { return u.name == slot.name; });
             if (use->presence == Presence::Required) {
                 failContract(fmt::format("pass '{}': nothing is bound to '{}'", name_, slot.name));
             }
@@ -268,7 +280,8 @@ VkDescriptorSet PassBase::prepare(Commands& commands, const Bindings& bindings) 
                                                          : image->mipView(0);
             }
             data.image.sampler = sampled ? resources_.sampler(bound->sampler()) : VK_NULL_HANDLE;
-            data.image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
+            data.image.imageLayout =
+                sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
             write.pImageInfo = &data.image;
         } else if (const Buffer* buffer = bound->buffer(); buffer && !isImage(slot.type)) {
             commands.use(*buffer, usage);
@@ -285,7 +298,8 @@ VkDescriptorSet PassBase::prepare(Commands& commands, const Bindings& bindings) 
             write.pNext = &data.structures;
         }
         if (!matches) {
-            failContract(fmt::format("pass '{}': what is bound to '{}' is of another kind", name_, slot.name));
+            failContract(
+                fmt::format("pass '{}': what is bound to '{}' is of another kind", name_, slot.name));
         }
         writes.push_back(write);
     }
@@ -298,6 +312,17 @@ VkDescriptorSet PassBase::prepare(Commands& commands, const Bindings& bindings) 
     return set;
 }
 
+void PassBase::captureWrites(Commands& commands, const Bindings& bindings) const {
+    if (!commands.captures(name_)) return;
+    for (const ShaderBinding& slot : bindings_) {
+        const Binding* bound = slot.writes ? find(bindings, slot.name) : nullptr;
+        if (!bound) continue;
+        if (bound->image())
+            commands.capture(slot.name, *bound->image(), std::uint32_t(std::max(0, bound->mipLevel())));
+        if (bound->buffer()) commands.capture(slot.name, *bound->buffer());
+    }
+}
+
 void PassBase::push(Commands& commands, VkDescriptorSet set, VkPipelineBindPoint bindPoint,
                     std::span<const std::byte> constants) {
     if (constants.size() != pushBytes_) {
@@ -306,7 +331,8 @@ void PassBase::push(Commands& commands, VkDescriptorSet set, VkPipelineBindPoint
     }
     vkCmdBindDescriptorSets(commands.handle(), bindPoint, layout_, 0, 1, &set, 0, nullptr);
     if (!constants.empty()) {
-        vkCmdPushConstants(commands.handle(), layout_, stages_, 0, std::uint32_t(constants.size()), constants.data());
+        vkCmdPushConstants(commands.handle(), layout_, stages_, 0, std::uint32_t(constants.size()),
+                           constants.data());
     }
 }
 
@@ -320,9 +346,10 @@ SpecValues PassBase::masked(const SpecValues& values) const {
 
 // --- ComputePass -----------------------------------------------------------------------------------------
 
-ComputePass::ComputePass(PassResources& resources, std::string name, std::vector<PassUse> uses, std::string file,
-                         std::vector<std::string> defines)
-    : PassBase(resources, std::move(name), std::move(uses)), file_(std::move(file)), defines_(std::move(defines)) {
+ComputePass::ComputePass(PassResources& resources, std::string name, std::vector<PassUse> uses,
+                         std::string file, std::vector<std::string> defines)
+    : PassBase(resources, std::move(name), std::move(uses)), file_(std::move(file)),
+      defines_(std::move(defines)) {
     if (file_.empty()) file_ = "passes/" + name_ + ".comp";
     code_ = compileOrFail(file_, defines_);
     build({&code_});
@@ -341,13 +368,15 @@ ComputePass::~ComputePass() {
 }
 
 void ComputePass::destroyPipelines() {
-    for (auto& [key, pipeline] : pipelines_) vkDestroyPipeline(device_.handle(), pipeline.get(), nullptr);
+    for (auto& [key, pipeline] : pipelines_)
+        vkDestroyPipeline(device_.handle(), pipeline.get(), nullptr);
     pipelines_.clear();
 }
 
 GroupCount ComputePass::cover(std::uint32_t width, std::uint32_t height, std::uint32_t depth) const {
     const auto groups = [](std::uint32_t threads, std::uint32_t size) { return (threads + size - 1) / size; };
-    return {groups(width, code_.localSize[0]), groups(height, code_.localSize[1]), groups(depth, code_.localSize[2])};
+    return {groups(width, code_.localSize[0]), groups(height, code_.localSize[1]),
+            groups(depth, code_.localSize[2])};
 }
 
 VkPipeline ComputePass::create(const SpecValues& features) const {
@@ -386,6 +415,7 @@ void ComputePass::recordBytes(Commands& commands, const SpecValues& features, co
     push(commands, set, VK_PIPELINE_BIND_POINT_COMPUTE, constants);
     vkCmdDispatch(commands.handle(), groups.x, groups.y, groups.z);
     commands.endPass();
+    captureWrites(commands, bindings);
 }
 
 std::string ComputePass::reload() {
@@ -418,14 +448,16 @@ std::string ComputePass::reload() {
 GraphicsPass::GraphicsPass(PassResources& resources, std::string name, std::vector<PassUse> uses,
                            GraphicsState state)
     : PassBase(resources, std::move(name), std::move(uses)), state_(std::move(state)),
-      vertex_(compileOrFail("passes/" + name_ + ".vert")), fragment_(compileOrFail("passes/" + name_ + ".frag")) {
+      vertex_(compileOrFail("passes/" + name_ + ".vert")),
+      fragment_(compileOrFail("passes/" + name_ + ".frag")) {
     build({&vertex_, &fragment_});
     vertexModule_ = makeModule(device_, vertex_);
     fragmentModule_ = makeModule(device_, fragment_);
 }
 
 GraphicsPass::~GraphicsPass() {
-    for (const auto& [key, pipeline] : pipelines_) vkDestroyPipeline(device_.handle(), pipeline, nullptr);
+    for (const auto& [key, pipeline] : pipelines_)
+        vkDestroyPipeline(device_.handle(), pipeline, nullptr);
     vkDestroyShaderModule(device_.handle(), vertexModule_, nullptr);
     vkDestroyShaderModule(device_.handle(), fragmentModule_, nullptr);
 }
@@ -439,8 +471,8 @@ VkPipelineColorBlendAttachmentState blendState(ColorTarget::Blend blend) {
     if (blend == ColorTarget::Blend::None) return state;
     state.blendEnable = VK_TRUE;
     state.colorBlendOp = state.alphaBlendOp = VK_BLEND_OP_ADD;
-    state.srcColorBlendFactor = blend == ColorTarget::Blend::Multiply ? VK_BLEND_FACTOR_DST_COLOR
-                                                                      : VK_BLEND_FACTOR_ONE;
+    state.srcColorBlendFactor =
+        blend == ColorTarget::Blend::Multiply ? VK_BLEND_FACTOR_DST_COLOR : VK_BLEND_FACTOR_ONE;
     state.dstColorBlendFactor = blend == ColorTarget::Blend::Multiply ? VK_BLEND_FACTOR_ZERO
                                 : blend == ColorTarget::Blend::Add    ? VK_BLEND_FACTOR_ONE
                                                                       : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
@@ -457,7 +489,8 @@ VkPipeline GraphicsPass::create(const SpecValues& features) const {
         stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertexModule_, specialization),
         stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragmentModule_, specialization)};
     VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+    VkPipelineInputAssemblyStateCreateInfo assembly{
+        VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
     viewport.viewportCount = viewport.scissorCount = 1;
@@ -529,11 +562,13 @@ void GraphicsPass::record(Commands& commands, const SpecValues& features, const 
     };
     std::vector<VkRenderingAttachmentInfo> colorInfos;
     for (const Attachment& color : colors) {
-        colorInfos.push_back(attachmentInfo(color, Usage::ColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
+        colorInfos.push_back(
+            attachmentInfo(color, Usage::ColorAttachment, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
     }
     VkRenderingAttachmentInfo depthInfo{};
     if (depth.image) {
-        depthInfo = attachmentInfo(depth, Usage::DepthAttachment, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
+        depthInfo =
+            attachmentInfo(depth, Usage::DepthAttachment, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
     }
     commands.flushBarriers();
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
@@ -555,6 +590,9 @@ void GraphicsPass::record(Commands& commands, const SpecValues& features, const 
     draw(buffer);
     vkCmdEndRendering(buffer);
     commands.endPass();
+    if (!commands.captures(name_)) return;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        commands.capture(state_.colors[i].name, *colors[i].image, 0);
 }
 
 } // namespace kilolux::gpu

@@ -21,7 +21,10 @@ namespace kilolux::gpu {
 using SpecValues = std::map<std::uint32_t, std::uint32_t>;
 
 enum class Access { Read, Write, ReadWrite };
-enum class Presence { Required, Optional }; // Optional: a dummy of the same kind stands in where it is not bound
+enum class Presence {
+    Required,
+    Optional
+}; // Optional: a dummy of the same kind stands in where it is not bound
 
 struct PassUse {
     std::string_view name; // the GLSL variable, or the block for buffers
@@ -35,7 +38,8 @@ class Binding {
     Binding(std::string_view name, const Buffer& buffer) : name_(name), resource_(&buffer) {}
     Binding(std::string_view name, const Image& image, SamplerKind sampler = SamplerKind::NearestClamp)
         : name_(name), resource_(&image), sampler_(sampler) {}
-    Binding(std::string_view name, const AccelerationStructure& structure) : name_(name), resource_(&structure) {}
+    Binding(std::string_view name, const AccelerationStructure& structure)
+        : name_(name), resource_(&structure) {}
     // One mip level only, for storage images and pyramid steps.
     static Binding mip(std::string_view name, const Image& image, std::uint32_t level) {
         Binding binding(name, image);
@@ -104,6 +108,8 @@ class PassBase {
     // that names the pass and the resource.
     void build(std::vector<ShaderCode*> stages);
     VkDescriptorSet prepare(Commands& commands, const Bindings& bindings);
+    void captureWrites(Commands& commands,
+                       const Bindings& bindings) const; // where Commands asks for this pass
     void push(Commands& commands, VkDescriptorSet set, VkPipelineBindPoint bindPoint,
               std::span<const std::byte> constants);
     SpecValues masked(const SpecValues& values) const; // only what the shaders declare
@@ -139,8 +145,8 @@ class ComputePass : public PassBase {
     ~ComputePass() override;
 
     template<typename Push>
-    void record(Commands& commands, const SpecValues& features, const Bindings& bindings, const Push& constants,
-                GroupCount groups) {
+    void record(Commands& commands, const SpecValues& features, const Bindings& bindings,
+                const Push& constants, GroupCount groups) {
         recordBytes(commands, features, bindings, std::as_bytes(std::span(&constants, 1)), groups);
     }
     void record(Commands& commands, const SpecValues& features, const Bindings& bindings, GroupCount groups) {

@@ -19,8 +19,8 @@ Buffer::Buffer(Device& device, BufferDesc desc) : device_(&device), desc_(std::m
     VkMemoryRequirements requirements;
     vkGetBufferMemoryRequirements(device.handle(), buffer_, &requirements);
     const bool addressed = desc_.usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    allocation_ = device.memory().allocate(requirements, desc_.memory, ResourceKind::Linear, addressed,
-                                           desc_.cause);
+    allocation_ =
+        device.memory().allocate(requirements, desc_.memory, ResourceKind::Linear, addressed, desc_.cause);
     KX_VK(vkBindBufferMemory(device.handle(), buffer_, allocation_.memory, allocation_.offset));
     device.setName(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<std::uint64_t>(buffer_), desc_.name.c_str());
     if (desc_.texelFormat != VK_FORMAT_UNDEFINED) {
@@ -32,7 +32,9 @@ Buffer::Buffer(Device& device, BufferDesc desc) : device_(&device), desc_(std::m
     }
 }
 
-Buffer::~Buffer() { release(); }
+Buffer::~Buffer() {
+    release();
+}
 
 void Buffer::release() {
     if (!buffer_) return;
@@ -42,7 +44,9 @@ void Buffer::release() {
     buffer_ = VK_NULL_HANDLE;
 }
 
-Buffer::Buffer(Buffer&& other) noexcept { *this = std::move(other); }
+Buffer::Buffer(Buffer&& other) noexcept {
+    *this = std::move(other);
+}
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     if (this == &other) return *this;
@@ -103,12 +107,14 @@ std::vector<std::byte> Buffer::download() const {
 std::uint32_t texelBytes(VkFormat format) {
     switch (format) {
     case VK_FORMAT_R8_UNORM:
-    case VK_FORMAT_R8_UINT: return 1;
+    case VK_FORMAT_R8_UINT:
+        return 1;
     case VK_FORMAT_R8G8_UNORM:
     case VK_FORMAT_R8G8_SNORM:
     case VK_FORMAT_R16_UINT:
     case VK_FORMAT_R16_UNORM:
-    case VK_FORMAT_R16_SFLOAT: return 2;
+    case VK_FORMAT_R16_SFLOAT:
+        return 2;
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_R8G8B8A8_UINT:
@@ -120,14 +126,18 @@ std::uint32_t texelBytes(VkFormat format) {
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
     case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
-    case VK_FORMAT_D32_SFLOAT: return 4;
+    case VK_FORMAT_D32_SFLOAT:
+        return 4;
     case VK_FORMAT_R16G16B16A16_SFLOAT:
     case VK_FORMAT_R16G16B16A16_UNORM:
     case VK_FORMAT_R32G32_SFLOAT:
-    case VK_FORMAT_R32G32_UINT: return 8;
+    case VK_FORMAT_R32G32_UINT:
+        return 8;
     case VK_FORMAT_R32G32B32A32_SFLOAT:
-    case VK_FORMAT_R32G32B32A32_UINT: return 16;
-    default: return 0;
+    case VK_FORMAT_R32G32B32A32_UINT:
+        return 16;
+    default:
+        return 0;
     }
 }
 
@@ -182,12 +192,15 @@ VkImageAspectFlags Image::aspect() const {
     return desc_.format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-Image::~Image() { release(); }
+Image::~Image() {
+    release();
+}
 
 void Image::release() {
     if (!image_) return;
     if (desc_.mips > 1) {
-        for (VkImageView mipView : mipViews_) vkDestroyImageView(device_->handle(), mipView, nullptr);
+        for (VkImageView mipView : mipViews_)
+            vkDestroyImageView(device_->handle(), mipView, nullptr);
     }
     vkDestroyImageView(device_->handle(), view_, nullptr);
     vkDestroyImageView(device_->handle(), secondView_, nullptr);
@@ -196,7 +209,9 @@ void Image::release() {
     image_ = VK_NULL_HANDLE;
 }
 
-Image::Image(Image&& other) noexcept { *this = std::move(other); }
+Image::Image(Image&& other) noexcept {
+    *this = std::move(other);
+}
 
 Image& Image::operator=(Image&& other) noexcept {
     if (this == &other) return *this;
@@ -213,8 +228,8 @@ Image& Image::operator=(Image&& other) noexcept {
 }
 
 void Image::upload(std::span<const std::byte> texels, std::uint32_t mip, std::uint32_t layer) {
-    Buffer staging(*device_, {"staging", texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryUse::HostWrite,
-                              "staging"});
+    Buffer staging(*device_, {"staging", texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                              MemoryUse::HostWrite, "staging"});
     staging.upload(texels);
     Commands commands(*device_);
     commands.copyBufferToImage(staging, 0, *this, mip, layer);
@@ -222,8 +237,8 @@ void Image::upload(std::span<const std::byte> texels, std::uint32_t mip, std::ui
 }
 
 std::vector<std::byte> Image::download(std::uint32_t mip, std::uint32_t layer) const {
-    const std::size_t texels = std::size_t(std::max(1u, desc_.width >> mip)) * std::max(1u, desc_.height >> mip) *
-                               std::max(1u, desc_.depth >> mip);
+    const std::size_t texels = std::size_t(std::max(1u, desc_.width >> mip)) *
+                               std::max(1u, desc_.height >> mip) * std::max(1u, desc_.depth >> mip);
     Buffer staging(*device_, {"readback", texels * texelBytes(desc_.format), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                               MemoryUse::HostReadback, "readback"});
     Commands commands(*device_);
@@ -253,7 +268,9 @@ AccelerationStructure::~AccelerationStructure() {
     if (handle_) device_->destroyAccelerationStructure(device_->handle(), handle_, nullptr);
 }
 
-AccelerationStructure::AccelerationStructure(AccelerationStructure&& other) noexcept { *this = std::move(other); }
+AccelerationStructure::AccelerationStructure(AccelerationStructure&& other) noexcept {
+    *this = std::move(other);
+}
 
 AccelerationStructure& AccelerationStructure::operator=(AccelerationStructure&& other) noexcept {
     std::swap(device_, other.device_);

@@ -80,7 +80,8 @@ struct ImageDesc {
     std::uint32_t width = 1, height = 1, depth = 1;
     std::uint32_t mips = 1, layers = 1;
     bool arrayed = false; // view as an array even with one layer
-    VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT; // transfer always added
+    VkImageUsageFlags usage =
+        VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT; // transfer always added
     VkFormat secondFormat = VK_FORMAT_UNDEFINED; // a second sampled view, e.g. sRGB beside UNORM
     std::string_view cause = "targets";
 };

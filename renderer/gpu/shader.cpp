@@ -31,8 +31,8 @@ Result<std::string> readText(const std::filesystem::path& path) {
     return text.str();
 }
 
-// Pastes #include "..." (relative to the shader folder, or to the including file), once per file, keeping file
-// and line for messages by #line.
+// Pastes #include "..." (relative to the shader folder, or to the including file), once per file, keeping
+// file and line for messages by #line.
 Result<std::string> expandIncludes(const std::filesystem::path& path, std::set<std::filesystem::path>& seen) {
     Result<std::string> text = readText(path);
     if (!text) return text;
@@ -76,11 +76,13 @@ ShaderStage stageOf(const std::string& name) {
 
 std::uint64_t hashText(const std::string& text) { // FNV-1a, 64 bits
     std::uint64_t hash = 14695981039346656037ull;
-    for (const char c : text) hash = (hash ^ std::uint8_t(c)) * 1099511628211ull;
+    for (const char c : text)
+        hash = (hash ^ std::uint8_t(c)) * 1099511628211ull;
     return hash;
 }
 
-Result<std::vector<std::uint32_t>> toSpirv(const std::string& name, const std::string& source, ShaderStage stage) {
+Result<std::vector<std::uint32_t>> toSpirv(const std::string& name, const std::string& source,
+                                           ShaderStage stage) {
     static std::once_flag once;
     std::call_once(once, [] { glslang::InitializeProcess(); });
     const EShLanguage language = stage == ShaderStage::Compute  ? EShLangCompute
@@ -134,24 +136,42 @@ void writeCache(const std::filesystem::path& path, const std::vector<std::uint32
 
 VkFormat formatOf(spv::ImageFormat format) {
     switch (format) {
-    case spv::ImageFormatRgba32f: return VK_FORMAT_R32G32B32A32_SFLOAT;
-    case spv::ImageFormatRgba16f: return VK_FORMAT_R16G16B16A16_SFLOAT;
-    case spv::ImageFormatR32f: return VK_FORMAT_R32_SFLOAT;
-    case spv::ImageFormatRg32f: return VK_FORMAT_R32G32_SFLOAT;
-    case spv::ImageFormatRg16f: return VK_FORMAT_R16G16_SFLOAT;
-    case spv::ImageFormatR16f: return VK_FORMAT_R16_SFLOAT;
-    case spv::ImageFormatR11fG11fB10f: return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
-    case spv::ImageFormatRgba8: return VK_FORMAT_R8G8B8A8_UNORM;
-    case spv::ImageFormatRg8: return VK_FORMAT_R8G8_UNORM;
-    case spv::ImageFormatRg8Snorm: return VK_FORMAT_R8G8_SNORM;
-    case spv::ImageFormatRg16Snorm: return VK_FORMAT_R16G16_SNORM;
-    case spv::ImageFormatR8: return VK_FORMAT_R8_UNORM;
-    case spv::ImageFormatRgba32ui: return VK_FORMAT_R32G32B32A32_UINT;
-    case spv::ImageFormatRg32ui: return VK_FORMAT_R32G32_UINT;
-    case spv::ImageFormatR32ui: return VK_FORMAT_R32_UINT;
-    case spv::ImageFormatRgba8ui: return VK_FORMAT_R8G8B8A8_UINT;
-    case spv::ImageFormatR16ui: return VK_FORMAT_R16_UINT;
-    default: return VK_FORMAT_UNDEFINED;
+    case spv::ImageFormatRgba32f:
+        return VK_FORMAT_R32G32B32A32_SFLOAT;
+    case spv::ImageFormatRgba16f:
+        return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case spv::ImageFormatR32f:
+        return VK_FORMAT_R32_SFLOAT;
+    case spv::ImageFormatRg32f:
+        return VK_FORMAT_R32G32_SFLOAT;
+    case spv::ImageFormatRg16f:
+        return VK_FORMAT_R16G16_SFLOAT;
+    case spv::ImageFormatR16f:
+        return VK_FORMAT_R16_SFLOAT;
+    case spv::ImageFormatR11fG11fB10f:
+        return VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    case spv::ImageFormatRgba8:
+        return VK_FORMAT_R8G8B8A8_UNORM;
+    case spv::ImageFormatRg8:
+        return VK_FORMAT_R8G8_UNORM;
+    case spv::ImageFormatRg8Snorm:
+        return VK_FORMAT_R8G8_SNORM;
+    case spv::ImageFormatRg16Snorm:
+        return VK_FORMAT_R16G16_SNORM;
+    case spv::ImageFormatR8:
+        return VK_FORMAT_R8_UNORM;
+    case spv::ImageFormatRgba32ui:
+        return VK_FORMAT_R32G32B32A32_UINT;
+    case spv::ImageFormatRg32ui:
+        return VK_FORMAT_R32G32_UINT;
+    case spv::ImageFormatR32ui:
+        return VK_FORMAT_R32_UINT;
+    case spv::ImageFormatRgba8ui:
+        return VK_FORMAT_R8G8B8A8_UINT;
+    case spv::ImageFormatR16ui:
+        return VK_FORMAT_R16_UINT;
+    default:
+        return VK_FORMAT_UNDEFINED;
     }
 }
 
@@ -163,9 +183,10 @@ void addImages(const spirv_cross::Compiler& compiler,
         const bool texels = type.image.dim == spv::DimBuffer;
         ShaderBinding binding;
         binding.name = compiler.get_name(resource.id);
-        binding.type = storage ? (texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
-                               : (texels ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
-                                         : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
+        binding.type =
+            storage ? (texels ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE)
+                    : (texels ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                              : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
         binding.reads = !storage || !compiler.has_decoration(resource.id, spv::DecorationNonReadable);
         binding.writes = storage && !compiler.has_decoration(resource.id, spv::DecorationNonWritable);
         binding.dimension = std::uint32_t(type.image.dim);
@@ -209,8 +230,8 @@ void reflect(ShaderCode& code) {
         code.bindings.push_back(binding);
     }
     for (const spirv_cross::Resource& resource : resources.push_constant_buffers) {
-        code.pushBytes = std::uint32_t(
-            compiler.get_declared_struct_size(compiler.get_type(resource.base_type_id)));
+        code.pushBytes =
+            std::uint32_t(compiler.get_declared_struct_size(compiler.get_type(resource.base_type_id)));
     }
     for (const spirv_cross::SpecializationConstant& constant : compiler.get_specialization_constants()) {
         code.constants.push_back({compiler.get_name(constant.id), constant.constant_id});
@@ -219,7 +240,8 @@ void reflect(ShaderCode& code) {
         for (std::uint32_t i = 0; i < 3; ++i) {
             code.localSize[i] = compiler.get_execution_mode_argument(spv::ExecutionModeLocalSize, i);
             if (code.localSize[i] == 0) {
-                const std::uint32_t id = compiler.get_execution_mode_argument(spv::ExecutionModeLocalSizeId, i);
+                const std::uint32_t id =
+                    compiler.get_execution_mode_argument(spv::ExecutionModeLocalSizeId, i);
                 code.localSize[i] = id ? compiler.get_constant(id).scalar() : 1;
             }
         }
@@ -238,7 +260,8 @@ void forEachDecoration(std::vector<std::uint32_t>& spirv, Visitor visit) {
     }
 }
 
-Result<ShaderCode> finish(const std::string& name, std::string source, const std::vector<std::string>& defines) {
+Result<ShaderCode> finish(const std::string& name, std::string source,
+                          const std::vector<std::string>& defines) {
     // Defines and extensions go right behind #version, which the language wants first.
     const std::size_t version = source.find("#version");
     if (version == std::string::npos) return Error{fmt::format("{}: no #version line", name)};
@@ -247,7 +270,8 @@ Result<ShaderCode> finish(const std::string& name, std::string source, const std
                                         source.begin() + std::ptrdiff_t(after), '\n'));
     std::string head = "#extension GL_GOOGLE_cpp_style_line_directive : require\n"
                        "#extension GL_EXT_scalar_block_layout : require\n";
-    for (const std::string& define : defines) head += "#define " + define + "\n";
+    for (const std::string& define : defines)
+        head += "#define " + define + "\n";
     head += fmt::format("#line {}\n", line);
     // The "#line 1" that expandIncludes put first must follow #version too.
     source = source.substr(version, after - version) + head + source.substr(after);
@@ -257,8 +281,9 @@ Result<ShaderCode> finish(const std::string& name, std::string source, const std
     code.stage = stageOf(name);
     const std::filesystem::path directory = cacheDirectory();
     const std::filesystem::path cached =
-        directory.empty() ? std::filesystem::path{}
-                          : directory / fmt::format("{:016x}-{}-{}.spv", hashText(source), source.size(), kCacheVersion);
+        directory.empty()
+            ? std::filesystem::path{}
+            : directory / fmt::format("{:016x}-{}-{}.spv", hashText(source), source.size(), kCacheVersion);
     if (!cached.empty()) code.spirv = readCache(cached);
     if (code.spirv.empty()) {
         Result<std::vector<std::uint32_t>> spirv = toSpirv(name, source, code.stage);
@@ -291,7 +316,8 @@ Result<ShaderCode> compileShaderText(const std::string& name, const std::string&
 void assignBindings(std::vector<ShaderCode*> stages) {
     std::set<std::string> names;
     for (const ShaderCode* stage : stages) {
-        for (const ShaderBinding& binding : stage->bindings) names.insert(binding.name);
+        for (const ShaderBinding& binding : stage->bindings)
+            names.insert(binding.name);
     }
     for (ShaderCode* stage : stages) {
         std::map<std::uint32_t, std::uint32_t> bindingOfId;

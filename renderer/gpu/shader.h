@@ -1,5 +1,5 @@
-// GLSL to SPIR-V at run time (glslang), with a disk cache, and what the SPIR-V says about itself (SPIRV-Cross):
-// bindings by name, push constants, specialization constants, workgroup size.
+// GLSL to SPIR-V at run time (glslang), with a disk cache, and what the SPIR-V says about itself
+// (SPIRV-Cross): bindings by name, push constants, specialization constants, workgroup size.
 #pragma once
 
 #include "renderer/document/result.h"
@@ -23,7 +23,7 @@ struct ShaderBinding {
     bool writes = false;
     std::uint32_t dimension = 0; // spv::Dim of an image
     bool arrayed = false;
-    bool integer = false; // an integer image
+    bool integer = false;                  // an integer image
     VkFormat format = VK_FORMAT_UNDEFINED; // of a storage image
 };
 
@@ -45,8 +45,8 @@ struct ShaderCode {
 // Where the GLSL lives: $KILOLUX_SHADERS, else the folder the program was built from.
 std::filesystem::path shaderDirectory();
 
-// Compiles shaders/<file> with the given "#define NAME VALUE" lines. The error holds the compiler's words with
-// file and line. Results are kept in cacheDirectory() by a hash of the expanded source.
+// Compiles shaders/<file> with the given "#define NAME VALUE" lines. The error holds the compiler's words
+// with file and line. Results are kept in cacheDirectory() by a hash of the expanded source.
 Result<ShaderCode> compileShader(const std::string& file, const std::vector<std::string>& defines = {});
 // The same from text, for tests; `name` ends in .comp, .vert or .frag.
 Result<ShaderCode> compileShaderText(const std::string& name, const std::string& source);

@@ -22,8 +22,8 @@ const char* resultName(VkResult result);
 
 } // namespace kilolux::gpu
 
-#define KX_VK(call)                                                                                           \
-    do {                                                                                                       \
-        const VkResult kxResult = (call);                                                                      \
-        if (kxResult < VK_SUCCESS) ::kilolux::gpu::failVulkan(__FILE__, __LINE__, #call, kxResult);            \
+#define KX_VK(call)                                                                                          \
+    do {                                                                                                     \
+        const VkResult kxResult = (call);                                                                    \
+        if (kxResult < VK_SUCCESS) ::kilolux::gpu::failVulkan(__FILE__, __LINE__, #call, kxResult);          \
     } while (false)

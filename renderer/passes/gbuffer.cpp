@@ -31,8 +31,10 @@ void ResolveGBufferPass::record(FrameContext& frame) {
 }
 
 DepthPyramidPass::DepthPyramidPass(gpu::PassResources& resources)
-    : pass_(resources, "depth_pyramid",
-            {{"gDepth"}, {"pyramidIn", Access::Read, gpu::Presence::Optional}, {"pyramidOut", Access::Write}}) {}
+    : pass_(
+          resources, "depth_pyramid",
+          {{"gDepth"}, {"pyramidIn", Access::Read, gpu::Presence::Optional}, {"pyramidOut", Access::Write}}) {
+}
 
 void DepthPyramidPass::record(FrameContext& frame) {
     struct Push {
@@ -43,7 +45,8 @@ void DepthPyramidPass::record(FrameContext& frame) {
     glm::uvec2 size = frame.constants.size;
     for (std::uint32_t mip = 0; mip < pyramid.desc().mips; ++mip) {
         const glm::uvec2 half = glm::max(size / 2u, glm::uvec2(1));
-        gpu::Bindings bindings{{"gDepth", frame.targets.gDepth}, gpu::Binding::mip("pyramidOut", pyramid, mip)};
+        gpu::Bindings bindings{{"gDepth", frame.targets.gDepth},
+                               gpu::Binding::mip("pyramidOut", pyramid, mip)};
         if (mip > 0) bindings.push_back(gpu::Binding::mip("pyramidIn", pyramid, mip - 1));
         pass_.record(frame.commands, frame.features, bindings, Push{size, half, mip == 0 ? 1u : 0u},
                      pass_.cover(half.x, half.y));

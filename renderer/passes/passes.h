@@ -1,5 +1,5 @@
-// Every pass of a frame, in frame order. A pass is a class that makes its pipelines once and a record() call per
-// frame; what it reads and writes is declared beside its shader's name in its own .cpp.
+// Every pass of a frame, in frame order. A pass is a class that makes its pipelines once and a record() call
+// per frame; what it reads and writes is declared beside its shader's name in its own .cpp.
 #pragma once
 
 #include "renderer/gpu/pass.h"

@@ -7,7 +7,9 @@ using gpu::Access;
 using gpu::PassUse;
 using gpu::Presence;
 
-std::vector<PassUse> geometryUses() { return {{"vertices"}, {"indices"}, {"Instances"}}; }
+std::vector<PassUse> geometryUses() {
+    return {{"vertices"}, {"indices"}, {"Instances"}};
+}
 
 std::vector<PassUse> surfaceUses() {
     constexpr Access read = Access::Read;
@@ -35,13 +37,15 @@ std::vector<PassUse> lightUses() {
 
 std::vector<PassUse> joined(std::initializer_list<std::vector<PassUse>> lists) {
     std::vector<PassUse> result;
-    for (const auto& list : lists) result.insert(result.end(), list.begin(), list.end());
+    for (const auto& list : lists)
+        result.insert(result.end(), list.begin(), list.end());
     return result;
 }
 
 gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists) {
     gpu::Bindings result;
-    for (const auto& list : lists) result.insert(result.end(), list.begin(), list.end());
+    for (const auto& list : lists)
+        result.insert(result.end(), list.begin(), list.end());
     return result;
 }
 
@@ -56,8 +60,9 @@ namespace {
 bool mayBeSeen(const glm::dmat4& clipFromWorld, const glm::dvec3& lower, const glm::dvec3& upper) {
     int outside[5] = {0, 0, 0, 0, 0};
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 p = clipFromWorld * glm::dvec4(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y,
-                                                        corner & 4 ? upper.z : lower.z, 1.0);
+        const glm::dvec4 p =
+            clipFromWorld * glm::dvec4(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y,
+                                       corner & 4 ? upper.z : lower.z, 1.0);
         outside[0] += p.x < -p.w;
         outside[1] += p.x > p.w;
         outside[2] += p.y < -p.w;
@@ -85,7 +90,8 @@ void drawVisible(VkCommandBuffer commands, const FrameContext& frame, const std:
         }
         if (clockwise != int(item.clockwise)) {
             clockwise = item.clockwise;
-            vkCmdSetFrontFace(commands, clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+            vkCmdSetFrontFace(commands,
+                              clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
         }
         vkCmdDrawIndexed(commands, item.indexCount, 1, item.firstIndex, item.vertexOffset, item.instance);
     }

@@ -14,12 +14,12 @@ void RasterVisibilityPass::record(FrameContext& frame) {
     frame.commands.use(scene.indexBuffer(), gpu::Usage::IndexRead);
     VkClearValue none{};
     none.color.uint32[0] = none.color.uint32[1] = 0xffffffffu;
-    pass_.record(frame.commands, frame.features,
-                 joined({{{"Frame", frame.frameBuffer}}, scene.geometryBindings(), scene.rayWorld().alphaBindings()}), {},
-                 frame.constants.size.x, frame.constants.size.y, {{&frame.targets.visibility, none}},
-                 {&frame.targets.rasterDepth}, [&](VkCommandBuffer commands) {
-                     drawVisible(commands, frame, scene.opaqueDraws());
-                 });
+    pass_.record(
+        frame.commands, frame.features,
+        joined({{{"Frame", frame.frameBuffer}}, scene.geometryBindings(), scene.rayWorld().alphaBindings()}),
+        {}, frame.constants.size.x, frame.constants.size.y, {{&frame.targets.visibility, none}},
+        {&frame.targets.rasterDepth},
+        [&](VkCommandBuffer commands) { drawVisible(commands, frame, scene.opaqueDraws()); });
 }
 
 TraceVisibilityPass::TraceVisibilityPass(gpu::PassResources& resources, TraceBackEnd tracer)

@@ -6,7 +6,7 @@
 KX_SHARED_BEGIN
 
 struct FrameConstants {
-    mat4 clipFromWorld;  // of anchor-relative positions, jitter contained; reversed depth, infinite far plane
+    mat4 clipFromWorld; // of anchor-relative positions, jitter contained; reversed depth, infinite far plane
     // The camera ray of pixel coordinates (px, py), pixel centres at halves, jitter contained:
     //   origin = originBase + px * originStepX + py * originStepY
     //   direction = dirBase + px * dirStepX + py * dirStepY, with 1 along the camera's axis: so that
@@ -17,16 +17,16 @@ struct FrameConstants {
     vec3 dirBase;
     vec3 dirStepX;
     vec3 dirStepY;
-    uvec2 size;           // pixels of the sub-rectangle that this frame renders
-    uvec2 tiles;          // of 8 x 8 pixels that cover it
-    uint tileChunks;      // runs of workgroups that the device executes side by side (lib/tile_order.glsl)
-    uint frame;           // since the start, for noise
+    uvec2 size;      // pixels of the sub-rectangle that this frame renders
+    uvec2 tiles;     // of 8 x 8 pixels that cover it
+    uint tileChunks; // runs of workgroups that the device executes side by side (lib/tile_order.glsl)
+    uint frame;      // since the start, for noise
     uint seed;
-    uint lightCount;      // slots
-    float exposure;       // display value = exposure * luminance [nit]
-    float pixelAngleRad;  // 2 tan(fovY / 2) / height; orthographic: 0
+    uint lightCount;     // slots
+    float exposure;      // display value = exposure * luminance [nit]
+    float pixelAngleRad; // 2 tan(fovY / 2) / height; orthographic: 0
     float zNearM;
-    uint rasterized;      // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
+    uint rasterized; // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
 };
 
 KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface

@@ -10,7 +10,7 @@ KX_SHARED_BEGIN
 //   tangent (packOct16, lowest bit set where the handedness is -1), uv0 (2 floats), colour (unorm 4x8)
 KX_CONST uint VERTEX_TEXELS = 2u;
 
-KX_CONST uint INSTANCE_MIRRORED = 1u;     // negative determinant: triangles wind the other way in world space
+KX_CONST uint INSTANCE_MIRRORED = 1u; // negative determinant: triangles wind the other way in world space
 KX_CONST uint INSTANCE_DOUBLE_SIDED = 2u;
 KX_CONST uint INSTANCE_ALPHA_TESTED = 4u;
 KX_CONST uint INSTANCE_HAS_TANGENTS = 8u;
@@ -24,9 +24,9 @@ struct GpuInstance {
     vec4 row2;
     uint firstVertex;
     uint firstIndex;
-    uint firstUv1;  // into the second uv set, or NO_OFFSET
+    uint firstUv1; // into the second uv set, or NO_OFFSET
     uint material;
-    uint flags;     // INSTANCE_*
+    uint flags; // INSTANCE_*
     uint triangleCount;
 };
 
@@ -42,8 +42,8 @@ KX_CONST uint TEXTURE_UV1 = 16u;
 KX_CONST uint TEXTURE_NEAREST = 32u;
 
 struct GpuTextureRef {
-    uint place; // TEXTURE_NONE or class and layer
-    uint flags; // TEXTURE_*
+    uint place;  // TEXTURE_NONE or class and layer
+    uint flags;  // TEXTURE_*
     vec3 uvRow0; // u' = dot(uvRow0, (u, v, 1))
     vec3 uvRow1;
 };
@@ -54,8 +54,8 @@ struct GpuMaterial {
     float metallic;
     float roughness;
     float normalScale;
-    float opacity;  // of BLEND and transmission, for the forward pass
-    uint flags;     // MATERIAL_*
+    float opacity; // of BLEND and transmission, for the forward pass
+    uint flags;    // MATERIAL_*
     GpuTextureRef baseColorTexture;
     GpuTextureRef metallicRoughnessTexture;
     GpuTextureRef normalTexture;

@@ -9,11 +9,11 @@ KX_SHARED_BEGIN
 
 // LightHot::typeFlags: low 4 bits are the type, the rest are flags.
 KX_CONST uint LIGHT_DIRECTIONAL = 0u;
-KX_CONST uint LIGHT_SPHERE = 1u; // a point when sizeM.x is 0
-KX_CONST uint LIGHT_SPOT = 2u;   // a sphere source shaped by a cone about dirWs
-KX_CONST uint LIGHT_TUBE = 3u;   // a capsule along the tangent
-KX_CONST uint LIGHT_RECT = 4u;   // one-sided, tangent is the width axis
-KX_CONST uint LIGHT_DISK = 5u;   // one-sided
+KX_CONST uint LIGHT_SPHERE = 1u;           // a point when sizeM.x is 0
+KX_CONST uint LIGHT_SPOT = 2u;             // a sphere source shaped by a cone about dirWs
+KX_CONST uint LIGHT_TUBE = 3u;             // a capsule along the tangent
+KX_CONST uint LIGHT_RECT = 4u;             // one-sided, tangent is the width axis
+KX_CONST uint LIGHT_DISK = 5u;             // one-sided
 KX_CONST uint LIGHT_UNIFORM_SLOTS = 1024u; // hot records that a uniform block holds: 64 KiB
 KX_CONST uint LIGHT_TYPE_COUNT = 6u;
 KX_CONST uint LIGHT_TYPE_MASK = 15u;

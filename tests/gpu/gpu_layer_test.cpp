@@ -10,8 +10,8 @@
 namespace kilolux::gpu {
 namespace {
 
-using ::testing::HasSubstr;
 using test::GpuTest;
+using ::testing::HasSubstr;
 
 constexpr const char* kAddOne = R"(#version 460
 layout(local_size_x = 64) in;
@@ -50,19 +50,21 @@ TEST_F(GpuTest, DeclarationIsCheckedAgainstTheShader) {
 }
 
 TEST_F(GpuTest, CompilerWordsNameFileAndLine) {
-    const Result<ShaderCode> code = compileShaderText("broken.comp", "#version 460\nvoid main() {\n  x = 1;\n}\n");
+    const Result<ShaderCode> code =
+        compileShaderText("broken.comp", "#version 460\nvoid main() {\n  x = 1;\n}\n");
     ASSERT_FALSE(code);
     EXPECT_THAT(code.error(), HasSubstr("broken.comp"));
     EXPECT_THAT(code.error(), HasSubstr(":3"));
 }
 
 // A chain of dispatches that each read what the one before wrote.
-std::vector<std::uint32_t> runChain(Device& device, PassResources& resources, int length, const SpecValues& features,
-                                    PassTimes* times = nullptr) {
+std::vector<std::uint32_t> runChain(Device& device, PassResources& resources, int length,
+                                    const SpecValues& features, PassTimes* times = nullptr) {
     ComputePass pass(resources, compile(kAddOne), {{"Source"}, {"Target", Access::Write}});
     Buffer a(device, {"a", 4096 * 4}), b(device, {"b", 4096 * 4});
     std::vector<std::uint32_t> start(4096);
-    for (std::uint32_t i = 0; i < 4096; ++i) start[i] = i;
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        start[i] = i;
     a.upload(start);
     Commands commands(device, times);
     for (int i = 0; i < length; ++i) {
@@ -77,9 +79,30 @@ std::vector<std::uint32_t> runChain(Device& device, PassResources& resources, in
 TEST_F(GpuTest, DerivedBarriersOrderAChain) {
     PassTimes times;
     const std::vector<std::uint32_t> result = runChain(device(), resources(), 9, {}, &times);
-    for (std::uint32_t i = 0; i < 4096; ++i) ASSERT_EQ(result[i], i + 9);
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        ASSERT_EQ(result[i], i + 9);
     ASSERT_EQ(times.entries().size(), 1u);
     EXPECT_EQ(times.entries()[0].ms.size(), 9u);
+}
+
+// What a pass wrote can be had from its declaration alone, although a later pass overwrites it.
+TEST_F(GpuTest, CaptureKeepsWhatAPassWrote) {
+    ComputePass first(resources(), compile(kAddOne, "first.comp"), {{"Source"}, {"Target", Access::Write}});
+    ComputePass second(resources(), compile(kAddOne, "second.comp"), {{"Source"}, {"Target", Access::Write}});
+    Buffer a(device(), {"a", 4096 * 4}), b(device(), {"b", 4096 * 4});
+    a.upload(std::vector<std::uint32_t>(4096, 5));
+    Commands commands(device());
+    commands.captureAfter("first.comp");
+    first.record(commands, {}, {{"Source", a}, {"Target", b}}, 4096u, {64});
+    second.record(commands, {{3, 100}}, {{"Source", a}, {"Target", b}}, 4096u, {64});
+    commands.submitAndWait();
+    const std::vector<Captured> captured = commands.captured();
+    ASSERT_EQ(captured.size(), 1u);
+    EXPECT_EQ(captured[0].name, "Target");
+    std::uint32_t value = 0;
+    std::memcpy(&value, captured[0].bytes.data() + 40, 4);
+    EXPECT_EQ(value, 6u);
+    EXPECT_EQ(b.downloadAs<std::uint32_t>()[10], 105u);
 }
 
 TEST_F(GpuTest, SpecializationConstantsSelectTheFeature) {
@@ -179,14 +202,17 @@ TEST(GpuLayer, ValidationSeesAMissingBarrier) {
 }
 
 TEST(GpuLayer, StagingAndNonCoherentMemoryGiveTheSameBytes) {
-    Device device({.validation = Validation::On, .memory = {.forceStaging = true, .treatAsNonCoherent = true}});
+    Device device(
+        {.validation = Validation::On, .memory = {.forceStaging = true, .treatAsNonCoherent = true}});
     PassResources resources(device);
     Buffer probe(device, {"probe", 256});
     EXPECT_EQ(probe.mapped(), nullptr);
     const std::vector<std::uint32_t> result = runChain(device, resources, 3, {});
-    for (std::uint32_t i = 0; i < 4096; ++i) ASSERT_EQ(result[i], i + 3);
+    for (std::uint32_t i = 0; i < 4096; ++i)
+        ASSERT_EQ(result[i], i + 3);
     std::vector<std::byte> texels(64 * 32 * 4);
-    for (std::size_t i = 0; i < texels.size(); ++i) texels[i] = std::byte(i * 7);
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        texels[i] = std::byte(i * 7);
     Image image(device, {"image", VK_FORMAT_R8G8B8A8_UNORM, 64, 32});
     image.upload(texels);
     EXPECT_EQ(image.download(), texels);

@@ -15,7 +15,8 @@ class CloseDevice : public ::testing::Environment {
   public:
     void TearDown() override { instance.reset(); }
 };
-[[maybe_unused]] ::testing::Environment* const closeDevice = ::testing::AddGlobalTestEnvironment(new CloseDevice);
+[[maybe_unused]] ::testing::Environment* const closeDevice =
+    ::testing::AddGlobalTestEnvironment(new CloseDevice);
 
 Shared& shared() {
     if (!instance) instance = std::make_unique<Shared>();
@@ -24,7 +25,11 @@ Shared& shared() {
 
 } // namespace
 
-gpu::Device& validatedDevice() { return shared().device; }
-gpu::PassResources& validatedResources() { return shared().resources; }
+gpu::Device& validatedDevice() {
+    return shared().device;
+}
+gpu::PassResources& validatedResources() {
+    return shared().resources;
+}
 
 } // namespace kilolux::test

@@ -16,7 +16,8 @@ class GpuTest : public ::testing::Test {
     void SetUp() override { validatedDevice().takeValidationMessages(); }
     void TearDown() override { expectNoMessages(validatedDevice()); }
     static void expectNoMessages(gpu::Device& device) {
-        for (const std::string& message : device.takeValidationMessages()) ADD_FAILURE() << message;
+        for (const std::string& message : device.takeValidationMessages())
+            ADD_FAILURE() << message;
     }
     gpu::Device& device() { return validatedDevice(); }
     gpu::PassResources& resources() { return validatedResources(); }
