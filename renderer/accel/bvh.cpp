@@ -23,6 +23,13 @@ constexpr unsigned kMaxDepth = 40;
 constexpr unsigned kLeafPairs = 4;
 // A pair costs the shader about this much of a node visit.
 constexpr float kPairCost = 1.0f;
+// Boxes of pairs are some cells wide on a grid that fits. Where a subtree has so many pairs that one is left with
+// fewer cells of its surface than this, rays would visit most of it: it gets a grid of its own, if that is finer
+// by kSubGridGain. So a detailed thing of a centimetre stays cheap in a world of 10 km.
+constexpr double kSubGridCellsPerPair = 16.0;
+constexpr double kSubGridGain = 16.0;
+constexpr std::uint32_t kSubGridPairs = 32;
+constexpr std::uint32_t kMaxSubGridNesting = 3; // each level takes a place on the traversal stack
 
 Box boxOf(const RTCBounds& b) { return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}}; }
 
@@ -37,7 +44,8 @@ double halfAreaOf(const Box& box) {
 struct BuildNode {
     BuildNode* child[2] = {nullptr, nullptr};
     Box childBox[2];
-    std::uint32_t pairCount = 0;
+    std::uint32_t pairsUnder = 0;
+    std::uint32_t pairCount = 0; // of a leaf
     std::uint32_t pair[BVH_MAX_LEAF_PAIRS];
 };
 
@@ -83,26 +91,55 @@ void onEmbreeError(void*, RTCError code, const char* message) {
     std::abort();
 }
 
+std::uint32_t countPairs(BuildNode& node) {
+    node.pairsUnder =
+        node.pairCount > 0 ? node.pairCount : countPairs(*node.child[0]) + countPairs(*node.child[1]);
+    return node.pairsUnder;
+}
+
 // Writes the tree depth first: a node's first child follows it, pairs lie in leaf order.
 class Flattener {
   public:
-    Flattener(const TrianglePairs& source, Bvh& target) : source_(source), target_(target) {}
+    Flattener(const TrianglePairs& source, Bvh& target, SubGrids subGrids)
+        : source_(source), target_(target), subGrids_(subGrids) {}
 
-    std::uint32_t flatten(const BuildNode& node, const Box& box, std::uint32_t depth) {
+    std::uint32_t flatten(const BuildNode& node, const Box& box, const BoxGrid& grid, std::uint32_t depth) {
         target_.depth = std::max(target_.depth, depth);
         if (node.pairCount > 0)
             return flattenLeaf(node, box);
-        target_.sahCost += halfAreaOf(box);
-        const std::uint32_t index = std::uint32_t(target_.nodes.size());
-        target_.nodes.emplace_back();
-        const std::uint32_t ref0 = flatten(*node.child[0], node.childBox[0], depth + 1);
-        const std::uint32_t ref1 = flatten(*node.child[1], node.childBox[1], depth + 1);
-        target_.nodes[index] = {quantizeBox(node.childBox[0], target_.grid), ref0,
-                                quantizeBox(node.childBox[1], target_.grid), ref1};
-        return index;
+        if (wantsSubGrid(node, box, grid)) {
+            const std::uint32_t index = std::uint32_t(target_.subGrids.size());
+            const BoxGrid own = gridOver(box);
+            target_.subGrids.push_back({own, BVH_REF_DONE});
+            ++nesting_;
+            const std::uint32_t rootRef = flattenInner(node, box, own, depth + 1);
+            --nesting_;
+            target_.subGrids[index].rootRef = rootRef;
+            return BVH_REF_ENTER | index;
+        }
+        return flattenInner(node, box, grid, depth);
     }
 
   private:
+    std::uint32_t flattenInner(const BuildNode& node, const Box& box, const BoxGrid& grid, std::uint32_t depth) {
+        target_.sahCost += halfAreaOf(box);
+        const std::uint32_t index = std::uint32_t(target_.nodes.size());
+        target_.nodes.emplace_back();
+        const std::uint32_t ref0 = flatten(*node.child[0], node.childBox[0], grid, depth + 1);
+        const std::uint32_t ref1 = flatten(*node.child[1], node.childBox[1], grid, depth + 1);
+        target_.nodes[index] = {quantizeBox(node.childBox[0], grid), ref0, quantizeBox(node.childBox[1], grid), ref1};
+        return index;
+    }
+
+    bool wantsSubGrid(const BuildNode& node, const Box& box, const BoxGrid& grid) const {
+        if (subGrids_ == SubGrids::None || nesting_ == kMaxSubGridNesting || node.pairsUnder < kSubGridPairs)
+            return false;
+        const glm::dvec3 cells = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) / glm::dvec3(grid.step) + 2.0;
+        const double widest = std::max({cells.x, cells.y, cells.z});
+        const double surface = cells.x * cells.y + cells.y * cells.z + cells.z * cells.x;
+        return widest * kSubGridGain <= 65535.0 && double(node.pairsUnder) * kSubGridCellsPerPair > surface;
+    }
+
     std::uint32_t flattenLeaf(const BuildNode& leaf, const Box& box) {
         target_.sahCost += halfAreaOf(box) * leaf.pairCount;
         const std::uint32_t first = std::uint32_t(target_.pairs.size());
@@ -115,6 +152,8 @@ class Flattener {
 
     const TrianglePairs& source_;
     Bvh& target_;
+    SubGrids subGrids_;
+    std::uint32_t nesting_ = 0;
 };
 
 RTCBuildArguments buildArguments(RTCBVH bvh, std::vector<RTCBuildPrimitive>& primitives) {
@@ -170,13 +209,15 @@ glm::uvec3 quantizeBox(const Box& box, const BoxGrid& grid) {
     return packed;
 }
 
-std::uint32_t rebasedRef(std::uint32_t ref, std::uint32_t firstNode, std::uint32_t firstPair) {
-    if (ref >= BVH_REF_ENTER)
+std::uint32_t rebasedRef(std::uint32_t ref, const BvhPlace& place) {
+    if (ref == BVH_REF_DONE)
         return ref;
-    return ref + (ref >= BVH_REF_LEAF ? firstPair : firstNode);
+    if (ref >= BVH_REF_ENTER)
+        return ref + place.firstEntry;
+    return ref + (ref >= BVH_REF_LEAF ? place.firstPair : place.firstNode);
 }
 
-Bvh buildBvh(const std::vector<SoupTriangle>& triangles) {
+Bvh buildBvh(const std::vector<SoupTriangle>& triangles, SubGrids subGrids) {
     Bvh result;
     result.triangleCount = std::uint32_t(triangles.size());
     if (triangles.empty())
@@ -193,19 +234,20 @@ Bvh buildBvh(const std::vector<SoupTriangle>& triangles) {
     rtcSetDeviceErrorFunction(device, onEmbreeError, nullptr);
     RTCBVH bvh = rtcNewBVH(device);
     const RTCBuildArguments arguments = buildArguments(bvh, primitives);
-    const BuildNode* root = static_cast<const BuildNode*>(rtcBuildBVH(&arguments));
+    BuildNode* root = static_cast<BuildNode*>(rtcBuildBVH(&arguments));
     assert(root && "Embree built a tree");
+    countPairs(*root);
     result.buildMs = msSince(start);
 
     start = std::chrono::steady_clock::now();
     result.pairs.reserve(pairs.pairs.size());
     result.pairIds.reserve(pairs.pairs.size());
     result.nodes.reserve(pairs.pairs.size() / 2);
-    result.rootRef = Flattener(pairs, result).flatten(*root, result.bounds, 0);
+    result.rootRef = Flattener(pairs, result, subGrids).flatten(*root, result.bounds, result.grid, 0);
     result.nodes.shrink_to_fit();
     const double rootArea = halfAreaOf(result.bounds);
     result.sahCost = rootArea > 0.0 ? result.sahCost / rootArea : 0.0;
-    assert(result.depth <= kMaxDepth);
+    assert(result.depth <= kMaxDepth + kMaxSubGridNesting);
     rtcReleaseBVH(bvh);
     rtcReleaseDevice(device);
     result.flattenMs = msSince(start);

@@ -26,24 +26,38 @@ struct BoxGrid {
 BoxGrid gridOver(const Box& bounds);
 glm::uvec3 quantizeBox(const Box& box, const BoxGrid& grid); // low plane in the low half word
 
+// A part of a BVH that is small and dense against the grid of the whole, and so has its own.
+struct SubGrid {
+    BoxGrid grid;
+    std::uint32_t rootRef = shared::BVH_REF_DONE;
+};
+
+enum class SubGrids { Allowed, None };
+
 struct Bvh {
     std::vector<shared::BvhNode> nodes;
     std::vector<shared::BvhPair> pairs;
     std::vector<glm::uvec2> pairIds;
     std::uint32_t rootRef = shared::BVH_REF_DONE; // references count from the first node and pair of this BVH
+    std::vector<SubGrid> subGrids; // an enter reference counts from the first of these
     BoxGrid grid;
     Box bounds;
     std::uint32_t triangleCount = 0;
-    std::uint32_t depth = 0;   // inner nodes on the longest path
+    std::uint32_t depth = 0;   // inner nodes and sub-grids on the longest path
     double sahCost = 0.0;      // expected node visits + pair tests of a ray through the root
     double pairMs = 0.0;
     double buildMs = 0.0;      // Embree's builder
     double flattenMs = 0.0;
 };
 
-Bvh buildBvh(const std::vector<SoupTriangle>& triangles);
+Bvh buildBvh(const std::vector<SoupTriangle>& triangles, SubGrids subGrids = SubGrids::None);
 
-// Shifts the node and pair indices of a reference, for several BVHs in one buffer.
-std::uint32_t rebasedRef(std::uint32_t ref, std::uint32_t firstNode, std::uint32_t firstPair);
+// Where the parts of a BVH begin when several share one set of buffers.
+struct BvhPlace {
+    std::uint32_t firstNode = 0;
+    std::uint32_t firstPair = 0;
+    std::uint32_t firstEntry = 0; // of its sub-grids
+};
+std::uint32_t rebasedRef(std::uint32_t ref, const BvhPlace& place);
 
 } // namespace kilolux

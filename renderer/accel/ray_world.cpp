@@ -27,26 +27,27 @@ void appendTo(std::vector<T>& target, const std::vector<T>& source) {
 }
 
 // Copies a BVH behind those already there and returns its root reference.
-std::uint32_t appendBvh(RayWorld& world, const Bvh& bvh) {
-    const std::uint32_t firstNode = std::uint32_t(world.nodes.size());
-    const std::uint32_t firstPair = std::uint32_t(world.pairs.size());
-    assert(firstPair + bvh.pairs.size() <= BVH_LEAF_FIRST_MASK && "pair indices fit their bits");
+std::uint32_t appendBvh(RayWorld& world, const Bvh& bvh, std::uint32_t firstEntry) {
+    const BvhPlace place{std::uint32_t(world.nodes.size()), std::uint32_t(world.pairs.size()), firstEntry};
+    assert(place.firstPair + bvh.pairs.size() <= BVH_LEAF_FIRST_MASK && "pair indices fit their bits");
     for (BvhNode node : bvh.nodes) {
-        node.ref0 = rebasedRef(node.ref0, firstNode, firstPair);
-        node.ref1 = rebasedRef(node.ref1, firstNode, firstPair);
+        node.ref0 = rebasedRef(node.ref0, place);
+        node.ref1 = rebasedRef(node.ref1, place);
         world.nodes.push_back(node);
     }
+    for (const SubGrid& part : bvh.subGrids)
+        world.staticSubGrids.push_back({part.grid, rebasedRef(part.rootRef, place)});
     appendTo(world.pairs, bvh.pairs);
     appendTo(world.pairIds, bvh.pairIds);
     world.stats.depth = std::max(world.stats.depth, bvh.depth);
     world.stats.pairMs += bvh.pairMs;
     world.stats.buildMs += bvh.buildMs;
     world.stats.flattenMs += bvh.flattenMs;
-    return rebasedRef(bvh.rootRef, firstNode, firstPair);
+    return rebasedRef(bvh.rootRef, place);
 }
 
 void buildStatic(RayWorld& world, const Scene& scene, const std::vector<Instance>& instances,
-                 const std::vector<bool>& moving, const glm::dvec3& anchor) {
+                 const std::vector<bool>& moving, std::uint32_t firstSubGridEntry, const glm::dvec3& anchor) {
     const auto start = std::chrono::steady_clock::now();
     std::vector<SoupTriangle> triangles;
     for (std::size_t i = 0; i < instances.size(); ++i)
@@ -54,13 +55,13 @@ void buildStatic(RayWorld& world, const Scene& scene, const std::vector<Instance
             appendWorldTriangles(scene, instances[i], anchor, triangles);
     world.stats.flattenSceneMs = msSince(start);
     world.stats.staticTriangles = triangles.size();
-    const Bvh bvh = buildBvh(triangles);
+    const Bvh bvh = buildBvh(triangles, SubGrids::Allowed);
     world.staticAnchor = anchor;
     world.staticBounds = bvh.bounds;
     world.staticGrid = bvh.grid;
     world.stats.sahCost = bvh.sahCost;
     world.staticPairs = {std::uint32_t(world.pairs.size()), std::uint32_t(bvh.pairs.size())};
-    world.staticRootRef = appendBvh(world, bvh);
+    world.staticRootRef = appendBvh(world, bvh, firstSubGridEntry);
 }
 
 void buildMoving(RayWorld& world, const Scene& scene, const std::vector<Instance>& instances,
@@ -81,7 +82,7 @@ void buildMoving(RayWorld& world, const Scene& scene, const std::vector<Instance
             placed.localBounds = bvh.bounds;
             placed.grid = bvh.grid;
             placed.pairRange = {std::uint32_t(world.pairs.size()), std::uint32_t(bvh.pairs.size())};
-            placed.rootRef = appendBvh(world, bvh);
+            placed.rootRef = appendBvh(world, bvh, 0);
             known = shared.emplace(key, placed).first;
         }
         if (known->second.rootRef == BVH_REF_DONE)
@@ -221,7 +222,8 @@ RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances, 
     // A binary tree over n moving instances and the static geometry has n nodes.
     world.topNodeCapacity = std::uint32_t(movingCount);
     world.nodes.resize(world.topNodeCapacity);
-    buildStatic(world, scene, instances, isMoving, anchor);
+    world.firstSubGridEntry = kFirstMovingEntry + std::uint32_t(movingCount);
+    buildStatic(world, scene, instances, isMoving, world.firstSubGridEntry, anchor);
     buildMoving(world, scene, instances, isMoving);
     world.alpha = buildAlphaMasks(scene, instances);
     for (std::size_t i = 0; i < instances.size(); ++i)
@@ -234,7 +236,9 @@ RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances, 
 void updateInstances(RayWorld& world, const std::vector<Instance>& instances, const glm::dvec3& anchor) {
     world.staticPivot = glm::vec3(world.staticAnchor - anchor);
     const BvhEntry staticEntry = identityEntry(world.staticGrid, world.staticRootRef, world.staticPivot);
-    world.entries.assign(kFirstMovingEntry + world.moving.size(), staticEntry);
+    world.entries.assign(world.firstSubGridEntry, staticEntry);
+    for (const SubGrid& part : world.staticSubGrids)
+        world.entries.push_back(identityEntry(part.grid, part.rootRef, world.staticPivot));
     std::vector<TopItem> items;
     if (world.staticRootRef != BVH_REF_DONE)
         items.push_back({{world.staticBounds.lower + world.staticPivot, world.staticBounds.upper + world.staticPivot},

@@ -66,6 +66,8 @@ struct RayWorld {
     PairRange staticPairs;
     Box staticBounds; // relative to `staticAnchor`
     BoxGrid staticGrid;
+    std::vector<SubGrid> staticSubGrids; // their entries come behind those of the moving instances
+    std::uint32_t firstSubGridEntry = 0;
     std::uint32_t staticRootRef = shared::BVH_REF_DONE;
     glm::dvec3 staticAnchor{0.0}; // what was subtracted from the static triangles
     glm::vec3 staticPivot{0.0f};  // staticAnchor minus the present anchor

@@ -18,7 +18,8 @@ KX_CONST uint BVH_LEAF_COUNT_SHIFT = 27u;
 KX_CONST uint BVH_LEAF_FIRST_MASK = 0x07FFFFFFu;
 KX_CONST uint BVH_ENTRY_MASK = 0x1FFFFFFFu;
 KX_CONST uint BVH_MAX_LEAF_PAIRS = 8u;
-// Pushes on the deepest path: one per level of the world, a return, one per level of an entered BVH.
+// Pushes on the deepest path: one per level of the top level (18 for 65,536 moving instances), a return, one per
+// level of an entered BVH (40) and of the grids that nest in it (3).
 KX_CONST uint BVH_STACK_SIZE = 64u;
 
 KX_CONST uint BVH_NODE_TEXELS = 2u;

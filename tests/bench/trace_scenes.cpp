@@ -77,6 +77,27 @@ BenchScene makeMovingHall() {
     return bench;
 }
 
+namespace {
+
+// Share of directions in which a point sees geometry: near 1 inside rooms.
+double enclosure(const RayWorld& world, const glm::vec3& p, double& meanDistanceM) {
+    std::mt19937 random(4);
+    int hits = 0;
+    meanDistanceM = 0.0;
+    constexpr int kDirections = 64;
+    for (int i = 0; i < kDirections; ++i) {
+        const CpuHit hit = nearest(world, p, randomDirection(random), 0.0f, 1e30f);
+        // Backs of walls: the point is inside a solid.
+        if (hit.instance == 0xFFFFFFFFu || hit.backFace)
+            continue;
+        ++hits;
+        meanDistanceM += hit.tM / kDirections;
+    }
+    return double(hits) / kDirections;
+}
+
+} // namespace
+
 BenchScene loadBenchScene(const std::string& path) {
     Result<Scene> scene = importGltf(path);
     if (!scene) {
@@ -86,15 +107,26 @@ BenchScene loadBenchScene(const std::string& path) {
     BenchScene bench;
     bench.name = path.substr(path.find_last_of('/') + 1);
     bench.scene = std::move(scene.value());
+    const RayWorld world = buildWorld(bench.scene, enumerateInstances(bench.scene), {}, glm::dvec3(0.0));
     const Bounds bounds = worldBounds(bench.scene);
     const glm::dvec3 size = bounds.max - bounds.min;
-    bench.eye = bounds.min + size * glm::dvec3(0.45, 0.55, 0.4);
-    bench.target = bounds.min + size * glm::dvec3(0.8, 0.4, 0.75);
+    // Lights where there is room around them and geometry on most sides; the camera in the widest such place.
     std::mt19937 random(2);
-    for (int light = 0; light < 256; ++light)
-        bench.lights.push_back(glm::vec3(bounds.min + size * glm::dvec3(uniform(random, 0.1, 0.9),
-                                                                        uniform(random, 0.3, 0.95),
-                                                                        uniform(random, 0.1, 0.9))));
+    double widest = -1.0;
+    for (int tries = 0; tries < 20000 && bench.lights.size() < 256; ++tries) {
+        const glm::dvec3 p = bounds.min + size * glm::dvec3(uniform(random, 0.02, 0.98), uniform(random, 0.02, 0.98),
+                                                            uniform(random, 0.02, 0.98));
+        double distanceM = 0.0;
+        if (enclosure(world, glm::vec3(p), distanceM) < (tries < 10000 ? 0.7 : 0.0))
+            continue;
+        bench.lights.push_back(glm::vec3(p));
+        if (distanceM > widest) {
+            widest = distanceM;
+            bench.eye = p + size * 0.001; // not at the light itself
+        }
+    }
+    // Look along the longer horizontal axis, slightly down.
+    bench.target = bench.eye + (size.x > size.z ? glm::dvec3(1.0, -0.2, 0.3) : glm::dvec3(0.3, -0.2, 1.0));
     return bench;
 }
 

@@ -163,6 +163,36 @@ TEST(Trace, EqualsExactArithmeticAtAllScales) {
     EXPECT_GT(hits, 1000);
 }
 
+TEST(Trace, DetailInAWideWorldHasItsOwnGrid) {
+    // A thing of 10 cm with 20,000 triangles, 10 km from another: on one grid it would be a single cell.
+    Scene scene = makeScene({makeTorus(100, 100, 0.04, 0.01, 0.002)}, placed({5000.0, 0.0, 0.0}, 1.0));
+    addNode(scene, 0, placed({-5000.0, 20.0, 100.0}, 1.0));
+    const glm::dvec3 anchor(5000.0, 0.0, 0.0);
+    RayWorld world = worldOf(scene, anchor);
+    EXPECT_TRUE(std::any_of(world.staticSubGrids.begin(), world.staticSubGrids.end(),
+                            [](const SubGrid& part) { return part.grid.step.x < 1e-5f; }));
+    const std::vector<SoupTriangle> triangles = worldTriangles(scene, anchor);
+    const EmbreeScene embree(triangles);
+    std::mt19937 random(9);
+    const auto compare = [&](const glm::vec3& shift) {
+        int different = 0, hits = 0;
+        for (int i = 0; i < 20000; ++i) {
+            const TestRay ray = randomRay(random, glm::vec3(-0.05f), glm::vec3(0.05f), i % 2 ? 0.5 : 50.0);
+            const float expected = embree.nearest(ray);
+            const CpuHit hit = nearest(world, ray.origin + shift, ray.dir, 0.0f, 1e30f);
+            hits += std::isfinite(expected);
+            different += std::isfinite(expected) != (hit.instance != 0xFFFFFFFFu) ||
+                         (std::isfinite(expected) && std::abs(hit.tM - expected) > 1e-4f * (0.01f + expected));
+        }
+        EXPECT_LE(different, 10);
+        EXPECT_GT(hits, 3000);
+    };
+    compare(glm::vec3(0.0f));
+    // The anchor moves by what floats hold exactly; the sub-grids follow.
+    updateInstances(world, enumerateInstances(scene), anchor - glm::dvec3(0.0, 0.0, 0.0625));
+    compare(glm::vec3(0.0f, 0.0f, 0.0625f));
+}
+
 TEST(Trace, EqualsEmbreeOnMeshes) {
     const Scene scene = makeScene({makeTorus(120, 60, 2.0, 0.7, 0.2), makeSphere(60, 60, 1.2)});
     const RayWorld world = worldOf(scene);
