@@ -146,6 +146,8 @@ Problem renderToFiles(const Arguments& arguments, const Scene& scene) {
                counted(options.frames, "frame"), seconds.count());
 
     const FrameStatistics statistics = renderer.value()->statistics();
+    for (const std::string& note : statistics.notes)
+        printWarning(fmt::format("{}: {}", arguments.scene, note));
     if (arguments.verbose) printVerbose(statistics);
     if (!arguments.statistics.empty()) {
         const std::string text = statisticsJson(statistics, options.settings).dump(2) + "\n";
@@ -162,7 +164,7 @@ Problem renderCommand(Arguments& arguments) {
     const Result<Scene> scene = importGltf(arguments.scene);
     if (!scene) return Failure{ExitCode::BadInput, scene.error()};
     for (const std::string& warning : scene.value().warnings)
-        printWarning(warning);
+        printWarning(fmt::format("{}: {}", arguments.scene, warning));
     if (Problem p = as(ExitCode::BadInput, checkCamera(arguments.options.camera, scene.value()))) return p;
     return renderToFiles(arguments, scene.value());
 }

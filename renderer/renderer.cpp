@@ -287,6 +287,10 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.lightsInRangeMean = surfacePixels ? double(lightsInRange) / double(surfacePixels) : 0.0;
     statistics.triangles = gpuScene->triangles();
     statistics.exposureEv100 = exposureEv100;
+    statistics.rangesDerived = gpuScene->derivedRanges();
+    const BvhStats& bvh = gpuScene->bvhStats();
+    statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;
+    statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
     describeFeatures(features, statistics);
     describePasses(times, {"light_all"}, statistics);
     describeMemory(device.memory(), statistics);

@@ -41,6 +41,10 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["gpuMemoryMiB"] = std::move(memory);
     json["firstDispatchMs"] = std::move(firstDispatch);
     json["startupMs"] = s.startupMs;
+    json["exposureEv100"] = s.exposureEv100;
+    json["rangesDerived"] = s.rangesDerived;
+    json["bvh"] = {{"buildMs", s.bvhBuildMs}, {"bytesPerTriangle", s.bvhBytesPerTriangle}};
+    json["notes"] = s.notes;
     return json;
 }
 

@@ -46,7 +46,10 @@ struct FrameStatistics {
         firstDispatchMs;    // pass and its first dispatch, compiler included
     double startupMs = 0.0; // process start to the first picture
     double exposureEv100 = 0.0;
-    std::vector<std::string> notes; // what the renderer decided for the user, one line each
+    int rangesDerived = 0;            // lights without a range of their own
+    double bvhBuildMs = 0.0;          // flattening, pairing, building
+    double bvhBytesPerTriangle = 0.0; // nodes and triangles together
+    std::vector<std::string> notes;   // what the renderer decided for the user, one line each
 };
 
 // The object that --stats writes: field names as above, `passes` by name, `gpuMemoryMiB` by cause and

@@ -28,7 +28,12 @@ TEST(Statistics, JsonHoldsEveryField) {
                                      .gpuMemory = {{"targets", 19.0}, {"bvh", 20.0}},
                                      .gpuMemoryPeakMiB = 38.0,
                                      .firstDispatchMs = {{"z_first", 21.0}},
-                                     .startupMs = 22.0};
+                                     .startupMs = 22.0,
+                                     .exposureEv100 = 5.5,
+                                     .rangesDerived = 23,
+                                     .bvhBuildMs = 24.5,
+                                     .bvhBytesPerTriangle = 41.0,
+                                     .notes = {"n"}};
     const Settings settings{.jitter = false};
     const nlohmann::ordered_json json =
         nlohmann::ordered_json::parse(statisticsJson(statistics, settings).dump());
@@ -44,6 +49,11 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(std::stoull(json["settingsHash"].get<std::string>(), nullptr, 16), settingsHash(settings));
     EXPECT_EQ(json["settingsHash"].get<std::string>().size(), 16u);
     EXPECT_EQ(json["lights"], 14);
+    EXPECT_EQ(json["exposureEv100"], 5.5);
+    EXPECT_EQ(json["rangesDerived"], 23);
+    EXPECT_EQ(json["bvh"]["buildMs"], 24.5);
+    EXPECT_EQ(json["bvh"]["bytesPerTriangle"], 41.0);
+    EXPECT_EQ(json["notes"], nlohmann::ordered_json({"n"}));
     EXPECT_EQ(json["lightsInRangeMean"], 1.5);
     EXPECT_EQ(json["triangles"], 15);
     EXPECT_EQ(json["features"]["on"], nlohmann::ordered_json({"A"}));
