@@ -15,7 +15,8 @@ namespace {
 
 constexpr float kSkyDepth = 3.0e38f;
 
-// Octahedral map of Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors".
+// Octahedral map of Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
+// Vectors".
 glm::dvec3 directionFromWord(std::uint32_t word) {
     const auto snorm = [](std::uint32_t half) {
         return std::max(double(std::int16_t(std::uint16_t(half))) / 32767.0, -1.0);
@@ -33,7 +34,8 @@ glm::dvec3 directionFromWord(std::uint32_t word) {
 } // namespace
 
 FrameTargets::FrameTargets(std::vector<NamedImage> images) {
-    for (NamedImage& image : images) images_.emplace(image.name, std::move(image));
+    for (NamedImage& image : images)
+        images_.emplace(image.name, std::move(image));
 }
 
 const NamedImage& FrameTargets::named(const std::string& name) const {
@@ -136,6 +138,8 @@ Scene loadScene(const std::string& file) {
     return std::move(scene.value());
 }
 
-double luminanceOf(const glm::dvec3& rgb) { return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)); }
+double luminanceOf(const glm::dvec3& rgb) {
+    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
 
 } // namespace kilolux::test

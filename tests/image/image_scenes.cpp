@@ -2,7 +2,6 @@
 
 #include "tests/unit/accel/scene_kit.h"
 
-
 namespace kilolux::test {
 
 namespace {
@@ -53,7 +52,9 @@ std::vector<LightCase> makeLightCases() {
 
 } // namespace
 
-void PrintTo(const LightCase& light, std::ostream* out) { *out << light.name; }
+void PrintTo(const LightCase& light, std::ostream* out) {
+    *out << light.name;
+}
 
 const std::vector<LightCase>& lightCases() {
     static const std::vector<LightCase> cases = makeLightCases();
@@ -71,9 +72,12 @@ Scene stageScene(const std::vector<LightCase>& lights) {
     b.quad(floorAt({-1.5, 0, 0}), 3, 6, matt);
     b.quad(floorAt({1.5, 0, 0}), 3, 6, glossy);
     b.quad(lookingAlong({0, 1.5, -2.5}, {0, 0, -1}), 6, 3, metal);
-    addPrimitive(b, makeBox({0.25, 0.25, 0.25}), Shading::Flat, glm::translate(glm::dmat4(1.0), dvec3(-0.4, 0.75, 0.3)), matt);
-    addPrimitive(b, makeSphere(16, 24, 0.4), Shading::Round, glm::translate(glm::dmat4(1.0), dvec3(0.8, 0.45, -0.3)), ball);
-    for (const LightCase& light : lights) b.light(light.def, light.worldFromLight);
+    addPrimitive(b, makeBox({0.25, 0.25, 0.25}), Shading::Flat,
+                 glm::translate(glm::dmat4(1.0), dvec3(-0.4, 0.75, 0.3)), matt);
+    addPrimitive(b, makeSphere(16, 24, 0.4), Shading::Round,
+                 glm::translate(glm::dmat4(1.0), dvec3(0.8, 0.45, -0.3)), ball);
+    for (const LightCase& light : lights)
+        b.light(light.def, light.worldFromLight);
     b.scene.cameras.push_back(cameraLooking({0.3, 2.3, 4.6}, {0, 0.6, -0.4}));
     return std::move(b.scene);
 }
@@ -90,14 +94,15 @@ Scene placedScene(Scene scene, double scale, const dvec3& offsetM) {
     for (LightDef& def : scene.lightDefs) {
         const bool byArea = def.unit == LightUnit::Lumen || def.unit == LightUnit::Candela;
         if (byArea) def.intensity *= scale * scale;
-        for (double* lengthM : {&def.radiusM, &def.lengthM, &def.widthM, &def.heightM}) *lengthM *= scale;
+        for (double* lengthM : {&def.radiusM, &def.lengthM, &def.widthM, &def.heightM})
+            *lengthM *= scale;
         if (def.rangeM) *def.rangeM *= scale;
     }
     return scene;
 }
 
-int addPrimitive(SceneBuilder& builder, const Primitive& primitive, Shading shading, const glm::dmat4& worldFromNode,
-                 int material) {
+int addPrimitive(SceneBuilder& builder, const Primitive& primitive, Shading shading,
+                 const glm::dmat4& worldFromNode, int material) {
     Primitive p = primitive;
     p.material = material;
     p.normals.clear();
@@ -113,7 +118,8 @@ int addPrimitive(SceneBuilder& builder, const Primitive& primitive, Shading shad
             }
         }
     } else {
-        for (const glm::vec3& position : p.positions) p.normals.push_back(glm::normalize(position));
+        for (const glm::vec3& position : p.positions)
+            p.normals.push_back(glm::normalize(position));
     }
     p.boundsMin = p.boundsMax = p.positions.front();
     for (const glm::vec3& position : p.positions) {
@@ -143,7 +149,8 @@ std::shared_ptr<const Image> makeImage(const std::function<glm::dvec4(int, int)>
     for (int y = 0; y < 256; ++y) {
         for (int x = 0; x < 256; ++x) {
             const glm::dvec4 value = texel(x, y);
-            for (int c = 0; c < 4; ++c) image->rgba8.push_back(std::uint8_t(value[c] * 255.0 + 0.5));
+            for (int c = 0; c < 4; ++c)
+                image->rgba8.push_back(std::uint8_t(value[c] * 255.0 + 0.5));
         }
     }
     return image;

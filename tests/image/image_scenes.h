@@ -1,5 +1,5 @@
-// Small scenes made in code for the image tests: a stage with matt, glossy and metallic surfaces, a ball and a
-// box that cast shadows, and one light of each kind above it.
+// Small scenes made in code for the image tests: a stage with matt, glossy and metallic surfaces, a ball and
+// a box that cast shadows, and one light of each kind above it.
 #pragma once
 
 #include "tests/unit/oracle/scene_builder.h"
@@ -33,16 +33,17 @@ Scene stageScene(const std::vector<LightCase>& lights);
 // A node whose quads lie flat and look up, width along x, height along z.
 glm::dmat4 floorAt(const glm::dvec3& position);
 
-// All of a scene moved, and scaled about the origin first: lengths by `scale`, candela and lumen by its square, so
-// that illuminance and luminance stay.
+// All of a scene moved, and scaled about the origin first: lengths by `scale`, candela and lumen by its
+// square, so that illuminance and luminance stay.
 Scene placedScene(Scene scene, double scale, const glm::dvec3& offsetM);
 
-// Flat: corners get their face's normal and are split for it. Round: normals point away from the local origin.
+// Flat: corners get their face's normal and are split for it. Round: normals point away from the local
+// origin.
 enum class Shading { Flat, Round };
 
 // Adds `primitive`, normals and bounds made, under a node of its own; returns the node.
-int addPrimitive(SceneBuilder& builder, const Primitive& primitive, Shading shading, const glm::dmat4& worldFromNode,
-                 int material);
+int addPrimitive(SceneBuilder& builder, const Primitive& primitive, Shading shading,
+                 const glm::dmat4& worldFromNode, int material);
 
 Camera cameraLooking(const glm::dvec3& from, const glm::dvec3& to, double yfovRad = 0.8);
 

@@ -19,11 +19,13 @@ struct Seen {
     bool operator==(const Seen&) const = default;
 };
 
-Seen seenBy(const oracle::OracleHit& hit) { return {hit.node, hit.primitive, hit.triangle}; }
+Seen seenBy(const oracle::OracleHit& hit) {
+    return {hit.node, hit.primitive, hit.triangle};
+}
 
 // Whether some ray within 1/100 px of the pixel's centre sees this; nullopt stands for nothing.
-bool isTie(const oracle::Oracle& oracle, const Camera& camera, int width, int height, const glm::dvec2& centre,
-           const std::optional<Seen>& wanted) {
+bool isTie(const oracle::Oracle& oracle, const Camera& camera, int width, int height,
+           const glm::dvec2& centre, const std::optional<Seen>& wanted) {
     for (int i = 0; i < 16; ++i) {
         const double turn = 2.0 * glm::pi<double>() * i / 16.0;
         const glm::dvec2 at = centre + 0.01 * glm::dvec2(std::cos(turn), std::sin(turn));
@@ -79,7 +81,8 @@ struct Replicas {
             pixelSum[i] += nit;
             pixelSquares[i] += nit * nit;
         }
-        for (int c = 0; c < 3; ++c) channel[c].push_back(mean.sum()[c]);
+        for (int c = 0; c < 3; ++c)
+            channel[c].push_back(mean.sum()[c]);
         luminance.push_back(luminanceOf(mean.sum()));
         total.diffuse += mean.diffuse;
         total.specular += mean.specular;
@@ -96,7 +99,8 @@ double worstBlock(const Replicas& replicas, const MatchedPixels& matched,
     std::map<std::size_t, Block> blocks;
     const double n = double(replicas.luminance.size());
     for (std::size_t i = 0; i < matched.pixels.size(); ++i) {
-        const std::size_t x = matched.pixels[i] % std::size_t(width), y = matched.pixels[i] / std::size_t(width);
+        const std::size_t x = matched.pixels[i] % std::size_t(width),
+                          y = matched.pixels[i] / std::size_t(width);
         Block& block = blocks[(y / 8) * 1000 + x / 8];
         const double mean = replicas.pixelSum[i] / n;
         const double spread = std::max(replicas.pixelSquares[i] / n - mean * mean, 0.0) / (n - 1.0);
@@ -141,7 +145,8 @@ MatchedPixels matchPixels(const Scene& scene, const oracle::Oracle& oracle, cons
         const auto hit = oracle.tracePrimary(ray.originWs, ray.directionWs, ray.minDistanceM);
         const PixelSurface s = targets.surface(i);
         std::optional<Seen> seen;
-        if (s.seen) seen = Seen{instances[s.instance].node, instances[s.instance].primitive, int(s.primitive)};
+        if (s.seen)
+            seen = Seen{instances[s.instance].node, instances[s.instance].primitive, int(s.primitive)};
         if (!hit && !seen) continue;
         if (hit && seen && seenBy(*hit) == *seen) {
             matched.pixels.push_back(i);
@@ -151,7 +156,8 @@ MatchedPixels matchPixels(const Scene& scene, const oracle::Oracle& oracle, cons
         } else if (strangers++ == 0) {
             first = "pixel " + std::to_string(i) + " sees node " + std::to_string(seen ? seen->node : -1) +
                     " triangle " + std::to_string(seen ? seen->triangle : -1) + ", the oracle node " +
-                    std::to_string(hit ? hit->node : -1) + " triangle " + std::to_string(hit ? hit->triangle : -1);
+                    std::to_string(hit ? hit->node : -1) + " triangle " +
+                    std::to_string(hit ? hit->triangle : -1);
         }
     }
     EXPECT_EQ(strangers, 0) << first;
@@ -176,25 +182,30 @@ SurfaceErrors compareSurfaces(const MatchedPixels& matched, const Camera& camera
         keep(errors.metallic, std::abs(s.metallic - hit.point.material.metallic));
         const dvec3 emission = frame.targets.rgb("gEmissive", matched.pixels[i]) / exposure;
         for (int c = 0; c < 3; ++c) {
-            keep(errors.emission, std::abs(emission[c] - hit.emissionNit[c]) / std::max(hit.emissionNit[c], 1.0));
+            keep(errors.emission,
+                 std::abs(emission[c] - hit.emissionNit[c]) / std::max(hit.emissionNit[c], 1.0));
         }
     }
     return errors;
 }
 
 std::ostream& operator<<(std::ostream& out, const SurfaceErrors& e) {
-    return out << "depth " << e.depth << ", normal " << e.normalRad << " rad, geometric normal " << e.geoNormalRad
-               << " rad, base colour " << e.baseColor << ", roughness " << e.roughness << ", metallic "
-               << e.metallic << ", emission " << e.emission;
+    return out << "depth " << e.depth << ", normal " << e.normalRad << " rad, geometric normal "
+               << e.geoNormalRad << " rad, base colour " << e.baseColor << ", roughness " << e.roughness
+               << ", metallic " << e.metallic << ", emission " << e.emission;
 }
 
-void expectSurfaces(const SurfaceErrors& errors) {
+void expectSurfaces(const SurfaceErrors& errors, const Scene& scene) {
+    bool normalMapped = false;
+    for (const Material& material : scene.materials)
+        normalMapped = normalMapped || material.normal.image >= 0;
     // Depth: a dozen roundings of 2^-24, magnified where a surface is seen at a slant.
     EXPECT_LT(errors.depth, 2e-5);
-    // Normals: 16 bits an axis, twice (vertex and G-buffer), and texels of 8 bits under a normal map.
-    EXPECT_LT(errors.normalRad, 2e-3);
+    // Normals: 16 bits an axis, twice (vertex and G-buffer). Normal maps: lavapipe filters texels of 8 bits
+    // to 8 bits, which turns a normal by up to 2/255 along both axes.
+    EXPECT_LT(errors.normalRad, normalMapped ? 1.2e-2 : 2e-3);
     EXPECT_LT(errors.geoNormalRad, 2e-4);
-    // Base colour: a square root in 10 or 11 bits; textures add half of 1/255.
+    // Base colour: a square root in 10 or 11 bits; textures add 1/255 of what is sampled.
     EXPECT_LT(errors.baseColor, 4e-3);
     EXPECT_LT(errors.roughness, 2.5e-3);
     EXPECT_LT(errors.metallic, 2.5e-3);
@@ -202,7 +213,8 @@ void expectSurfaces(const SurfaceErrors& errors) {
 }
 
 LightComparison compareLight(const Scene& scene, const LightOptions& options) {
-    useLtcTable(loadLtcTable(KILOLUX_SOURCE_DIR "/content/ltc_ggx.bin").value()); // deriveExposureEv100() asks it
+    useLtcTable(
+        loadLtcTable(KILOLUX_SOURCE_DIR "/content/ltc_ggx.bin").value()); // deriveExposureEv100() asks it
     RenderOptions render = smallOptions(options.width, options.height, options.settings);
     render.method = options.method;
     render.frames = options.frames;
@@ -221,7 +233,7 @@ LightComparison compareLight(const Scene& scene, const LightOptions& options) {
         if (index == 0) matched = matchPixels(scene, oracle, camera, targets);
         replicas.add(targets, matched.pixels, exposureFromEv100(exposureEv100));
     });
-    expectSurfaces(compareSurfaces(matched, camera, frame));
+    expectSurfaces(compareSurfaces(matched, camera, frame), scene);
 
     oracle::OracleOptions truthOptions;
     truthOptions.estimator = options.method == "true" ? oracle::Estimator::True : oracle::Estimator::Split;
@@ -243,7 +255,8 @@ LightComparison compareLight(const Scene& scene, const LightOptions& options) {
     result.oracleNit = luminanceOf(mean.sum());
     result.oracleError = std::sqrt(variance) / result.oracleNit;
     std::vector<double> planted = replicas.luminance;
-    for (double& value : planted) value *= 1.01;
+    for (double& value : planted)
+        value *= 1.01;
     result.planted = measure::testEquivalence(planted, result.oracleNit, 0.005);
     result.diffuseRatio = luminanceOf(replicas.total.diffuse) / options.frames / luminanceOf(mean.diffuse);
     result.specularRatio = luminanceOf(replicas.total.specular) / options.frames / luminanceOf(mean.specular);
@@ -257,7 +270,8 @@ std::ostream& operator<<(std::ostream& out, const LightComparison& c) {
     out << c.compared << " pixels, " << c.ties << " ties, oracle " << c.oracleNit << " nit +- "
         << 100.0 * c.oracleError << " %; difference";
     for (const measure::Equivalence& e : c.channel) {
-        out << " " << 100.0 * e.relativeDifference << " [" << 100.0 * e.lower << ", " << 100.0 * e.upper << "]";
+        out << " " << 100.0 * e.relativeDifference << " [" << 100.0 * e.lower << ", " << 100.0 * e.upper
+            << "]";
     }
     return out << " %, diffuse " << 100.0 * (c.diffuseRatio - 1.0) << " %, specular "
                << 100.0 * (c.specularRatio - 1.0) << " %, worst block " << 100.0 * c.worstBlock << " %";

@@ -1,5 +1,5 @@
-// Frames against the oracle on one G-buffer: pixels are matched triangle by triangle, then the lighting of the
-// matched ones is compared by equivalence over frames, which are replicas with noise of their own.
+// Frames against the oracle on one G-buffer: pixels are matched triangle by triangle, then the lighting of
+// the matched ones is compared by equivalence over frames, which are replicas with noise of their own.
 #pragma once
 
 #include "renderer/measure/equivalence.h"
@@ -32,8 +32,8 @@ struct SurfaceErrors {
 SurfaceErrors compareSurfaces(const MatchedPixels& matched, const Camera& camera, const Rendered& frame);
 std::ostream& operator<<(std::ostream& out, const SurfaceErrors& errors);
 
-// Fails where a field loses more than its packing explains.
-void expectSurfaces(const SurfaceErrors& errors);
+// Fails where a field loses more than its packing and the driver's texture filter explain.
+void expectSurfaces(const SurfaceErrors& errors, const Scene& scene);
 
 struct LightOptions {
     std::string method = "split"; // or "true"
@@ -52,7 +52,8 @@ struct LightComparison {
     double oracleError = 0.0;     // its relative standard error
     double diffuseRatio = 0.0;    // GPU over oracle, luminance, each lobe alone
     double specularRatio = 0.0;
-    double worstBlock = 0.0; // largest difference of an 8 x 8 block's mean, beyond noise, over the picture's mean
+    double worstBlock =
+        0.0; // largest difference of an 8 x 8 block's mean, beyond noise, over the picture's mean
     int ties = 0;
     std::size_t compared = 0;
 };

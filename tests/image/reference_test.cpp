@@ -1,5 +1,5 @@
-// Both references of the GPU against the oracle, on one G-buffer: a light of each type over the stage, the stage
-// far from the origin, tiny and huge, and materials with textures, masks and mirrored nodes.
+// Both references of the GPU against the oracle, on one G-buffer: a light of each type over the stage, the
+// stage far from the origin, tiny and huge, and materials with textures, masks and mirrored nodes.
 #include "tests/image/image_scenes.h"
 #include "tests/image/oracle_kit.h"
 
@@ -30,19 +30,39 @@ void expectBothAgree(const Scene& scene, LightOptions options = {}) {
 
 class ReferenceByLight : public testing::TestWithParam<LightCase> {};
 
-TEST_P(ReferenceByLight, Agrees) { expectBothAgree(stageScene({GetParam()})); }
+TEST_P(ReferenceByLight, Agrees) {
+    expectBothAgree(stageScene({GetParam()}));
+}
 
 INSTANTIATE_TEST_SUITE_P(Types, ReferenceByLight, testing::ValuesIn(lightCases()),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(Reference, CornellAgrees) { expectBothAgree(loadScene("cornell.glb")); }
+TEST(Reference, CornellAgrees) {
+    expectBothAgree(loadScene("cornell.glb"));
+}
 
-TEST(Reference, AllLightsTogetherAgree) { expectBothAgree(stageScene(lightCases()), {.raysPerLight = 8}); }
+TEST(Reference, AllLightsTogetherAgree) {
+    expectBothAgree(stageScene(lightCases()), {.raysPerLight = 8});
+}
 
 TEST(Reference, BothGBuffersAgree) {
     const Scene scene = stageScene({lightCases()[0], lightCases()[4]});
     expectBothAgree(scene, {.settings = {"gbuffer=raster"}});
     expectBothAgree(scene, {.settings = {"gbuffer=compute"}});
+}
+
+// Lights that stand in the floor and the wall: their lower parts are under the horizon of what they light.
+TEST(Reference, LightsAtTheHorizonAgree) {
+    std::vector<LightCase> lights;
+    const auto sunk = [&](std::size_t index, const glm::dvec3& at, const glm::dvec3& along) {
+        lights.push_back(lightCases()[index]);
+        lights.back().worldFromLight = lookingAlong(at, along);
+    };
+    sunk(0, {-1.8, 0.1, 1.0}, {1, 0, -0.2});
+    sunk(1, {1.9, 0.05, 1.2}, {-1, 0.1, -0.3});
+    sunk(2, {-0.2, 0.1, 1.5}, {0, 0, -1});
+    sunk(3, {0.2, 1.2, -2.48}, {0, 0, 1});
+    expectBothAgree(stageScene(lights));
 }
 
 class ReferenceByPlace : public testing::TestWithParam<std::pair<double, glm::dvec3>> {};
