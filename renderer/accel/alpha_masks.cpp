@@ -1,4 +1,5 @@
-// Gathers alpha channels, records and corner attributes; images and primitives that are shared are stored once.
+// Gathers alpha channels, records and corner attributes; images and primitives that are shared are stored
+// once.
 #include "renderer/accel/alpha_masks.h"
 
 #include <algorithm>
@@ -12,7 +13,9 @@ namespace {
 
 using namespace shared;
 
-std::uint8_t toUnorm8(float value) { return std::uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f)); }
+std::uint8_t toUnorm8(float value) {
+    return std::uint8_t(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
+}
 
 std::uint32_t wrapBits(WrapMode mode) {
     switch (mode) {
@@ -31,14 +34,13 @@ class Builder {
     Builder(const Scene& scene, AlphaMasks& masks) : scene_(scene), masks_(masks) {}
 
     std::uint32_t recordOf(const Instance& instance) {
-        if (instance.role != SurfaceRole::AlphaTested)
-            return ALPHA_RECORD_NONE;
+        if (instance.role != SurfaceRole::AlphaTested) return ALPHA_RECORD_NONE;
         const auto key = std::make_pair(instance.mesh, instance.primitive);
         const auto known = records_.find(key);
-        if (known != records_.end())
-            return known->second;
+        if (known != records_.end()) return known->second;
         const std::uint32_t index = std::uint32_t(masks_.records.size());
-        masks_.records.push_back(makeRecord(scene_.materials[instance.material], primitiveOf(scene_, instance)));
+        masks_.records.push_back(
+            makeRecord(scene_.materials[instance.material], primitiveOf(scene_, instance)));
         records_[key] = index;
         return index;
     }
@@ -61,7 +63,8 @@ class Builder {
             // KHR_texture_transform: offset + rotation * scale * uv, the rotation turning uv clockwise.
             const double c = std::cos(texture.rotationRad), s = std::sin(texture.rotationRad);
             record.uvRow0 = glm::vec3(glm::dvec3(c * texture.scale.x, s * texture.scale.y, texture.offset.x));
-            record.uvRow1 = glm::vec3(glm::dvec3(-s * texture.scale.x, c * texture.scale.y, texture.offset.y));
+            record.uvRow1 =
+                glm::vec3(glm::dvec3(-s * texture.scale.x, c * texture.scale.y, texture.offset.y));
         }
         record.firstTriangle = std::uint32_t(masks_.triangles.size());
         appendTriangles(primitive, texture.texCoord == 1 ? primitive.uv1 : primitive.uv0);
@@ -87,8 +90,7 @@ class Builder {
 
     std::uint32_t firstTexelOf(int imageIndex) {
         const auto known = firstTexels_.find(imageIndex);
-        if (known != firstTexels_.end())
-            return known->second;
+        if (known != firstTexels_.end()) return known->second;
         const Image& image = *scene_.images[imageIndex];
         const std::uint32_t first = std::uint32_t(masks_.texels.size());
         const std::size_t count = std::size_t(image.width) * std::size_t(image.height);

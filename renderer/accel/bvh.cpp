@@ -23,17 +23,21 @@ constexpr unsigned kMaxDepth = 40;
 constexpr unsigned kLeafPairs = 4;
 // A pair costs the shader about this much of a node visit.
 constexpr float kPairCost = 1.0f;
-// Boxes of pairs are some cells wide on a grid that fits. Where a subtree has so many pairs that one is left with
-// fewer cells of its surface than this, rays would visit most of it: it gets a grid of its own, if that is finer
-// by kSubGridGain. So a detailed thing of a centimetre stays cheap in a world of 10 km.
+// Boxes of pairs are some cells wide on a grid that fits. Where a subtree has so many pairs that one is left
+// with fewer cells of its surface than this, rays would visit most of it: it gets a grid of its own, if that
+// is finer by kSubGridGain. So a detailed thing of a centimetre stays cheap in a world of 10 km.
 constexpr double kSubGridCellsPerPair = 16.0;
 constexpr double kSubGridGain = 16.0;
 constexpr std::uint32_t kSubGridPairs = 32;
 constexpr std::uint32_t kMaxSubGridNesting = 3; // each level takes a place on the traversal stack
 
-Box boxOf(const RTCBounds& b) { return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}}; }
+Box boxOf(const RTCBounds& b) {
+    return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
 
-Box unionOf(const Box& a, const Box& b) { return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)}; }
+Box unionOf(const Box& a, const Box& b) {
+    return {glm::min(a.lower, b.lower), glm::max(a.upper, b.upper)};
+}
 
 double halfAreaOf(const Box& box) {
     const glm::dvec3 size = glm::dvec3(box.upper) - glm::dvec3(box.lower);
@@ -60,7 +64,8 @@ void setBounds(void* node, const RTCBounds** bounds, unsigned count, void*) {
     for (unsigned i = 0; i < count; ++i)
         static_cast<BuildNode*>(node)->childBox[i] = boxOf(*bounds[i]);
 }
-void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void*) {
+void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count,
+                 void*) {
     BuildNode* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuildNode), 16)) BuildNode;
     leaf->pairCount = std::uint32_t(count);
     for (size_t i = 0; i < count; ++i)
@@ -105,8 +110,7 @@ class Flattener {
 
     std::uint32_t flatten(const BuildNode& node, const Box& box, const BoxGrid& grid, std::uint32_t depth) {
         target_.depth = std::max(target_.depth, depth);
-        if (node.pairCount > 0)
-            return flattenLeaf(node, box);
+        if (node.pairCount > 0) return flattenLeaf(node, box);
         if (wantsSubGrid(node, box, grid)) {
             const std::uint32_t index = std::uint32_t(target_.subGrids.size());
             const BoxGrid own = gridOver(box);
@@ -121,20 +125,23 @@ class Flattener {
     }
 
   private:
-    std::uint32_t flattenInner(const BuildNode& node, const Box& box, const BoxGrid& grid, std::uint32_t depth) {
+    std::uint32_t flattenInner(const BuildNode& node, const Box& box, const BoxGrid& grid,
+                               std::uint32_t depth) {
         target_.sahCost += halfAreaOf(box);
         const std::uint32_t index = std::uint32_t(target_.nodes.size());
         target_.nodes.emplace_back();
         const std::uint32_t ref0 = flatten(*node.child[0], node.childBox[0], grid, depth + 1);
         const std::uint32_t ref1 = flatten(*node.child[1], node.childBox[1], grid, depth + 1);
-        target_.nodes[index] = {quantizeBox(node.childBox[0], grid), ref0, quantizeBox(node.childBox[1], grid), ref1};
+        target_.nodes[index] = {quantizeBox(node.childBox[0], grid), ref0,
+                                quantizeBox(node.childBox[1], grid), ref1};
         return index;
     }
 
     bool wantsSubGrid(const BuildNode& node, const Box& box, const BoxGrid& grid) const {
         if (subGrids_ == SubGrids::None || nesting_ == kMaxSubGridNesting || node.pairsUnder < kSubGridPairs)
             return false;
-        const glm::dvec3 cells = (glm::dvec3(box.upper) - glm::dvec3(box.lower)) / glm::dvec3(grid.step) + 2.0;
+        const glm::dvec3 cells =
+            (glm::dvec3(box.upper) - glm::dvec3(box.lower)) / glm::dvec3(grid.step) + 2.0;
         const double widest = std::max({cells.x, cells.y, cells.z});
         const double surface = cells.x * cells.y + cells.y * cells.z + cells.z * cells.x;
         return widest * kSubGridGain <= 65535.0 && double(node.pairsUnder) * kSubGridCellsPerPair > surface;
@@ -210,18 +217,15 @@ glm::uvec3 quantizeBox(const Box& box, const BoxGrid& grid) {
 }
 
 std::uint32_t rebasedRef(std::uint32_t ref, const BvhPlace& place) {
-    if (ref == BVH_REF_DONE)
-        return ref;
-    if (ref >= BVH_REF_ENTER)
-        return ref + place.firstEntry;
+    if (ref == BVH_REF_DONE) return ref;
+    if (ref >= BVH_REF_ENTER) return ref + place.firstEntry;
     return ref + (ref >= BVH_REF_LEAF ? place.firstPair : place.firstNode);
 }
 
 Bvh buildBvh(const std::vector<SoupTriangle>& triangles, SubGrids subGrids) {
     Bvh result;
     result.triangleCount = std::uint32_t(triangles.size());
-    if (triangles.empty())
-        return result;
+    if (triangles.empty()) return result;
     auto start = std::chrono::steady_clock::now();
     const TrianglePairs pairs = pairTriangles(triangles);
     std::vector<RTCBuildPrimitive> primitives = buildPrimitives(pairs.pairs);

@@ -39,14 +39,14 @@ struct Bvh {
     std::vector<shared::BvhPair> pairs;
     std::vector<glm::uvec2> pairIds;
     std::uint32_t rootRef = shared::BVH_REF_DONE; // references count from the first node and pair of this BVH
-    std::vector<SubGrid> subGrids; // an enter reference counts from the first of these
+    std::vector<SubGrid> subGrids;                // an enter reference counts from the first of these
     BoxGrid grid;
     Box bounds;
     std::uint32_t triangleCount = 0;
-    std::uint32_t depth = 0;   // inner nodes and sub-grids on the longest path
-    double sahCost = 0.0;      // expected node visits + pair tests of a ray through the root
+    std::uint32_t depth = 0; // inner nodes and sub-grids on the longest path
+    double sahCost = 0.0;    // expected node visits + pair tests of a ray through the root
     double pairMs = 0.0;
-    double buildMs = 0.0;      // Embree's builder
+    double buildMs = 0.0; // Embree's builder
     double flattenMs = 0.0;
 };
 

@@ -10,17 +10,16 @@ namespace {
 // The whole image's alpha is 255: a mask that can never fail.
 bool isOpaque(const Image& image) {
     for (std::size_t texel = 0; texel * 4 < image.rgba8.size(); ++texel)
-        if (image.rgba8[texel * 4 + 3] != 255)
-            return false;
+        if (image.rgba8[texel * 4 + 3] != 255) return false;
     for (std::size_t texel = 0; texel * 4 < image.rgbaF32.size(); ++texel)
-        if (image.rgbaF32[texel * 4 + 3] < 1.0f)
-            return false;
+        if (image.rgbaF32[texel * 4 + 3] < 1.0f) return false;
     return true;
 }
 
 bool hasVaryingAlpha(const Scene& scene, const Material& material, const Primitive& primitive) {
     const int image = material.baseColor.image;
-    if (image >= 0 && image < int(scene.images.size()) && scene.images[image] && !isOpaque(*scene.images[image]))
+    if (image >= 0 && image < int(scene.images.size()) && scene.images[image] &&
+        !isOpaque(*scene.images[image]))
         return true;
     return std::any_of(primitive.colors.begin(), primitive.colors.end(),
                        [](const glm::vec4& color) { return color.a < 1.0f; });
@@ -41,12 +40,9 @@ SurfaceRole surfaceRole(const Scene& scene, const Primitive& primitive) {
     if (primitive.material < 0 || primitive.material >= int(scene.materials.size()))
         return SurfaceRole::Opaque;
     const Material& material = scene.materials[primitive.material];
-    if (!castsShadow(material))
-        return SurfaceRole::Absent;
-    if (material.alphaMode == AlphaMode::Opaque)
-        return SurfaceRole::Opaque;
-    if (hasVaryingAlpha(scene, material, primitive))
-        return SurfaceRole::AlphaTested;
+    if (!castsShadow(material)) return SurfaceRole::Absent;
+    if (material.alphaMode == AlphaMode::Opaque) return SurfaceRole::Opaque;
+    if (hasVaryingAlpha(scene, material, primitive)) return SurfaceRole::AlphaTested;
     return material.baseColorFactor.a >= alphaCutoff(material) ? SurfaceRole::Opaque : SurfaceRole::Absent;
 }
 

@@ -47,8 +47,7 @@ std::vector<std::uint32_t> weldVertices(const std::vector<SoupTriangle>& triangl
         std::size_t slot = hashPosition(position) & (capacity - 1);
         while (table[slot] != kNone && positionOf(table[slot]) != position)
             slot = (slot + 1) & (capacity - 1);
-        if (table[slot] == kNone)
-            table[slot] = corner;
+        if (table[slot] == kNone) table[slot] = corner;
         ids[corner] = table[slot];
     }
     return ids;
@@ -60,8 +59,7 @@ std::vector<HalfEdge> sortedHalfEdges(const std::vector<SoupTriangle>& triangles
     edges.reserve(triangles.size() * 3);
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
         const std::uint32_t* v = &vertex[t * 3];
-        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
-            continue; // no area: stays alone
+        if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue; // no area: stays alone
         for (std::uint32_t e = 0; e < 3; ++e) {
             const std::uint64_t from = v[e], to = v[(e + 1) % 3];
             edges.push_back({std::min(from, to) << 32 | std::max(from, to), t, std::uint8_t(e), from < to});
@@ -79,7 +77,9 @@ struct Neighbour {
 };
 using Neighbours = std::array<Neighbour, 3>;
 
-float halfArea(const glm::vec3& size) { return size.x * size.y + size.y * size.z + size.z * size.x; }
+float halfArea(const glm::vec3& size) {
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
 
 glm::vec3 lowerOf(const SoupTriangle& t) {
     return glm::min(t.position[0], glm::min(t.position[1], t.position[2]));
@@ -133,12 +133,10 @@ class Matching {
         for (;;) {
             const auto bucket =
                 std::find_if(queue_.begin() + 1, queue_.end(), [](const auto& q) { return !q.empty(); });
-            if (bucket == queue_.end())
-                break;
+            if (bucket == queue_.end()) break;
             const std::uint32_t t = bucket->back();
             bucket->pop_back();
-            if (!done_[t])
-                pairUp(t);
+            if (!done_[t]) pairUp(t);
         }
     }
 
@@ -157,16 +155,14 @@ class Matching {
         float bestArea = 0.0f;
         for (std::uint8_t e = 0; e < 3; ++e) {
             const std::uint32_t other = neighbours_[t][e].triangle;
-            if (other == kNone || done_[other])
-                continue;
+            if (other == kNone || done_[other]) continue;
             const float area = unionHalfArea(triangles_[t], triangles_[other]);
             if (best == kNoEdge || area < bestArea) {
                 best = e;
                 bestArea = area;
             }
         }
-        if (best == kNoEdge)
-            return;
+        if (best == kNoEdge) return;
         const Neighbour partner = neighbours_[t][best];
         done_[t] = done_[partner.triangle] = true;
         pairedEdge[t] = best;
@@ -205,13 +201,13 @@ TrianglePairs pairTriangles(const std::vector<SoupTriangle>& triangles) {
             continue;
         }
         const Neighbour& partner = neighbours[t][edge];
-        if (partner.triangle < t)
-            continue; // written with its partner
+        if (partner.triangle < t) continue; // written with its partner
         // Turned so that the shared edge is b -> c here and c -> b there.
         const std::uint32_t rotation = (edge + 2u) % 3u;
         const glm::vec3* q = triangles[partner.triangle].position;
         result.pairs.push_back({p[rotation], p[edge], p[(edge + 1u) % 3u], q[(partner.edge + 2u) % 3u]});
-        result.ids.push_back({packId(triangles[t], rotation), packId(triangles[partner.triangle], partner.edge)});
+        result.ids.push_back(
+            {packId(triangles[t], rotation), packId(triangles[partner.triangle], partner.edge)});
     }
     return result;
 }

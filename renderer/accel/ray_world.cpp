@@ -69,8 +69,7 @@ void buildMoving(RayWorld& world, const Scene& scene, const std::vector<Instance
     std::map<std::pair<int, int>, RayWorld::Moving> shared; // by mesh and primitive
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Instance& instance = instances[i];
-        if (instance.role == SurfaceRole::Absent || !moving[i])
-            continue;
+        if (instance.role == SurfaceRole::Absent || !moving[i]) continue;
         const auto key = std::make_pair(instance.mesh, instance.primitive);
         auto known = shared.find(key);
         if (known == shared.end()) {
@@ -85,8 +84,7 @@ void buildMoving(RayWorld& world, const Scene& scene, const std::vector<Instance
             placed.rootRef = appendBvh(world, bvh, 0);
             known = shared.emplace(key, placed).first;
         }
-        if (known->second.rootRef == BVH_REF_DONE)
-            continue; // no triangles
+        if (known->second.rootRef == BVH_REF_DONE) continue; // no triangles
         known->second.instance = std::uint32_t(i);
         world.moving.push_back(known->second);
     }
@@ -96,7 +94,8 @@ void buildMoving(RayWorld& world, const Scene& scene, const std::vector<Instance
 Box placedBounds(const Box& local, const glm::dmat4& anchoredFromLocal) {
     glm::dvec3 lower(INFINITY), upper(-INFINITY);
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 p(corner & 1 ? local.upper.x : local.lower.x, corner & 2 ? local.upper.y : local.lower.y,
+        const glm::dvec3 p(corner & 1 ? local.upper.x : local.lower.x,
+                           corner & 2 ? local.upper.y : local.lower.y,
                            corner & 4 ? local.upper.z : local.lower.z);
         const glm::dvec3 q(anchoredFromLocal * glm::dvec4(p, 1.0));
         lower = glm::min(lower, q);
@@ -127,7 +126,8 @@ BvhEntry movingEntry(const RayWorld::Moving& placed, const glm::dmat4& anchoredF
     entry.linear0 = glm::vec3(linear[0]);
     entry.linear1 = glm::vec3(linear[1]);
     entry.linear2 = glm::vec3(linear[2]);
-    const glm::dvec3 centre = (glm::dvec3(placed.localBounds.lower) + glm::dvec3(placed.localBounds.upper)) * 0.5;
+    const glm::dvec3 centre =
+        (glm::dvec3(placed.localBounds.lower) + glm::dvec3(placed.localBounds.upper)) * 0.5;
     entry.pivotWs = glm::vec3(glm::dvec3(anchoredFromLocal * glm::dvec4(centre, 1.0)));
     entry.pivotLs = glm::vec3(glm::dvec3(localFromAnchored * glm::dvec4(glm::dvec3(entry.pivotWs), 1.0)));
     entry.firstTriangle = firstTriangle;
@@ -153,8 +153,7 @@ class TopLevel {
     TopLevel(RayWorld& world, const BoxGrid& grid) : world_(world), grid_(grid) {}
 
     std::uint32_t build(TopItem* items, std::size_t count) {
-        if (count == 1)
-            return items[0].ref;
+        if (count == 1) return items[0].ref;
         const std::size_t half = count / 2;
         const int axis = longestAxis(items, count);
         std::nth_element(items, items + half, items + count, [axis](const TopItem& a, const TopItem& b) {
@@ -208,13 +207,14 @@ void fillStats(RayWorld& world) {
     stats.otherBytes =
         world.entries.size() * sizeof(BvhEntry) + world.instances.size() * sizeof(TraceInstance);
     const std::size_t triangles = stats.staticTriangles + stats.movingTriangles;
-    stats.bytesPerTriangle = triangles > 0 ? double(stats.nodeBytes + stats.triangleBytes) / double(triangles) : 0;
+    stats.bytesPerTriangle =
+        triangles > 0 ? double(stats.nodeBytes + stats.triangleBytes) / double(triangles) : 0;
 }
 
 } // namespace
 
-RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances, const std::vector<bool>& moving,
-                    const glm::dvec3& anchor) {
+RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances,
+                    const std::vector<bool>& moving, const glm::dvec3& anchor) {
     std::vector<bool> isMoving = moving;
     isMoving.resize(instances.size(), false);
     RayWorld world;
@@ -241,8 +241,9 @@ void updateInstances(RayWorld& world, const std::vector<Instance>& instances, co
         world.entries.push_back(identityEntry(part.grid, part.rootRef, world.staticPivot));
     std::vector<TopItem> items;
     if (world.staticRootRef != BVH_REF_DONE)
-        items.push_back({{world.staticBounds.lower + world.staticPivot, world.staticBounds.upper + world.staticPivot},
-                         BVH_REF_ENTER | kStaticEntry});
+        items.push_back(
+            {{world.staticBounds.lower + world.staticPivot, world.staticBounds.upper + world.staticPivot},
+             BVH_REF_ENTER | kStaticEntry});
     const std::size_t staticItems = items.size();
     for (std::size_t i = 0; i < world.moving.size(); ++i) {
         RayWorld::Moving& placed = world.moving[i];
@@ -250,14 +251,13 @@ void updateInstances(RayWorld& world, const std::vector<Instance>& instances, co
         anchoredFromLocal = instances[placed.instance].worldFromLocal;
         anchoredFromLocal[3] -= glm::dvec4(anchor, 0.0);
         placed.placed = isInvertible(anchoredFromLocal);
-        if (!placed.placed)
-            continue;
+        if (!placed.placed) continue;
         const std::uint32_t entry = kFirstMovingEntry + std::uint32_t(i);
-        world.entries[entry] = movingEntry(placed, anchoredFromLocal, instances[placed.instance].firstTriangle);
+        world.entries[entry] =
+            movingEntry(placed, anchoredFromLocal, instances[placed.instance].firstTriangle);
         items.push_back({placedBounds(placed.localBounds, anchoredFromLocal), BVH_REF_ENTER | entry});
     }
-    if (items.size() == staticItems)
-        return; // the world is the static geometry
+    if (items.size() == staticItems) return; // the world is the static geometry
     const BoxGrid grid = gridOver(boundsOf(items.data(), items.size()));
     TopLevel top(world, grid);
     // The static geometry encloses most instances, so it is one side of the root.

@@ -1,6 +1,6 @@
-// Everything that rays can hit, in the form that shaders/lib/trace.glsl binds: one BVH over all static geometry,
-// one per mesh primitive that moves, and a small top level over the moving instances that is rewritten whenever
-// one of them has moved.
+// Everything that rays can hit, in the form that shaders/lib/trace.glsl binds: one BVH over all static
+// geometry, one per mesh primitive that moves, and a small top level over the moving instances that is
+// rewritten whenever one of them has moved.
 #pragma once
 
 #include "renderer/accel/alpha_masks.h"
@@ -75,11 +75,11 @@ struct RayWorld {
 
 // `moving[i]` says that instance i shall be movable: its BVH is per mesh primitive and placed by a transform.
 // An empty vector means that all are static. Coordinates on the GPU are world minus `anchor`.
-RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances, const std::vector<bool>& moving,
-                    const glm::dvec3& anchor);
+RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances,
+                    const std::vector<bool>& moving, const glm::dvec3& anchor);
 
-// Takes over the transforms of the moving instances, and a new anchor if it has changed: rewrites `entries` and
-// the first topNodeCapacity `nodes`, nothing else. O(moving instances).
+// Takes over the transforms of the moving instances, and a new anchor if it has changed: rewrites `entries`
+// and the first topNodeCapacity `nodes`, nothing else. O(moving instances).
 void updateInstances(RayWorld& world, const std::vector<Instance>& instances, const glm::dvec3& anchor);
 
 } // namespace kilolux

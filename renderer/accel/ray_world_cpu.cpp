@@ -1,4 +1,5 @@
-// Compiles the tracing shaders as C++ in float. Needs -fsingle-precision-constant: GLSL literals have no suffix.
+// Compiles the tracing shaders as C++ in float. Needs -fsingle-precision-constant: GLSL literals have no
+// suffix.
 #include "renderer/accel/ray_world_cpu.h"
 
 #include "shaders/shared/bvh.h"
@@ -39,21 +40,41 @@ Texel texelOf(const std::vector<T>& records, uint index) {
     assert(index < records.size() * sizeof(T) / sizeof(Texel));
     Texel texel;
     // GLM's types copy as bytes, though its constructors keep the compiler from knowing.
-    std::memcpy(static_cast<void*>(&texel), reinterpret_cast<const char*>(records.data()) + index * sizeof(Texel),
-                sizeof(Texel));
+    std::memcpy(static_cast<void*>(&texel),
+                reinterpret_cast<const char*>(records.data()) + index * sizeof(Texel), sizeof(Texel));
     return texel;
 }
 
-uvec4 fetchNode(uint texel) { return texelOf<uvec4>(boundWorld->nodes, texel); }
-vec4 fetchPair(uint texel) { return texelOf<vec4>(boundWorld->pairs, texel); }
-uvec2 fetchPairIds(uint pair) { return boundWorld->pairIds[pair]; }
-uvec4 fetchEntry(uint texel) { return texelOf<uvec4>(boundWorld->entries, texel); }
-BvhEntry worldEntry() { return boundWorld->entries[0]; }
-uvec2 fetchTraceInstance(uint index) { return texelOf<uvec2>(boundWorld->instances, index); }
-uint traceInstanceCount() { return uint(boundWorld->instances.size()); }
-float fetchAlphaTexel(uint texel) { return float(boundWorld->alpha.texels[texel]) / 255.0f; }
-uvec4 fetchAlphaRecord(uint texel) { return texelOf<uvec4>(boundWorld->alpha.records, texel); }
-uvec4 fetchAlphaTriangle(uint texel) { return texelOf<uvec4>(boundWorld->alpha.triangles, texel); }
+uvec4 fetchNode(uint texel) {
+    return texelOf<uvec4>(boundWorld->nodes, texel);
+}
+vec4 fetchPair(uint texel) {
+    return texelOf<vec4>(boundWorld->pairs, texel);
+}
+uvec2 fetchPairIds(uint pair) {
+    return boundWorld->pairIds[pair];
+}
+uvec4 fetchEntry(uint texel) {
+    return texelOf<uvec4>(boundWorld->entries, texel);
+}
+BvhEntry worldEntry() {
+    return boundWorld->entries[0];
+}
+uvec2 fetchTraceInstance(uint index) {
+    return texelOf<uvec2>(boundWorld->instances, index);
+}
+uint traceInstanceCount() {
+    return uint(boundWorld->instances.size());
+}
+float fetchAlphaTexel(uint texel) {
+    return float(boundWorld->alpha.texels[texel]) / 255.0f;
+}
+uvec4 fetchAlphaRecord(uint texel) {
+    return texelOf<uvec4>(boundWorld->alpha.records, texel);
+}
+uvec4 fetchAlphaTriangle(uint texel) {
+    return texelOf<uvec4>(boundWorld->alpha.triangles, texel);
+}
 
 const bool kTraceAlpha = true;
 
@@ -65,17 +86,21 @@ const bool kTraceAlpha = true;
 #include "shaders/lib/tile_order.glsl"
 #include "shaders/lib/trace_core.glsl"
 
-Ray rayOf(const vec3& origin, const vec3& dir, float tMinM, float tMaxM) { return {origin, tMinM, dir, tMaxM}; }
+Ray rayOf(const vec3& origin, const vec3& dir, float tMinM, float tMaxM) {
+    return {origin, tMinM, dir, tMaxM};
+}
 
 } // namespace
 } // namespace shader
 
-bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM) {
+bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM,
+              float tMaxM) {
     const shader::BoundWorld bound(world);
     return shader::occludedByBvh(shader::rayOf(origin, dir, tMinM, tMaxM));
 }
 
-CpuHit nearest(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM) {
+CpuHit nearest(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM,
+               float tMaxM) {
     const shader::BoundWorld bound(world);
     const shader::Hit hit = shader::nearestInBvh(shader::rayOf(origin, dir, tMinM, tMaxM));
     return {hit.tM, hit.instance, hit.primitive, hit.barycentrics, hit.backFace};
@@ -91,7 +116,8 @@ float positionErrorM(const glm::vec3& position) {
     return shader::positionErrorM(position);
 }
 
-glm::vec3 offsetRayOrigin(const glm::vec3& position, const glm::vec3& ng, const glm::vec3& dir, float errorM) {
+glm::vec3 offsetRayOrigin(const glm::vec3& position, const glm::vec3& ng, const glm::vec3& dir,
+                          float errorM) {
     return shader::offsetRayOrigin(position, ng, dir, errorM);
 }
 

@@ -1,5 +1,5 @@
-// The shaders' own traversal (shaders/lib/trace_core.glsl), compiled as C++ over a RayWorld: what a GPU answers,
-// without one. For tests and for tools that need a few rays.
+// The shaders' own traversal (shaders/lib/trace_core.glsl), compiled as C++ over a RayWorld: what a GPU
+// answers, without one. For tests and for tools that need a few rays.
 #pragma once
 
 #include "renderer/accel/ray_world.h"
@@ -18,7 +18,8 @@ struct CpuHit {
 
 // `dir` is unit length; hits count in [tMinM, tMaxM). Coordinates are world minus anchor.
 bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM);
-CpuHit nearest(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM);
+CpuHit nearest(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM,
+               float tMaxM);
 bool alphaPasses(const RayWorld& world, std::uint32_t instance, std::uint32_t primitive,
                  const glm::vec2& barycentrics);
 

@@ -23,13 +23,11 @@ void append(const Scene& scene, const Instance& instance, std::uint32_t firstId,
             triangle.position[corner] = transform(primitive.positions[primitive.indices[t * 3 + corner]]);
             finite = finite && isFinite(triangle.position[corner]);
         }
-        if (!finite)
-            continue;
+        if (!finite) continue;
         triangle.id = firstId + t;
         triangle.alphaTested = instance.role == SurfaceRole::AlphaTested;
         triangle.swapped = mirrored;
-        if (mirrored)
-            std::swap(triangle.position[1], triangle.position[2]);
+        if (mirrored) std::swap(triangle.position[1], triangle.position[2]);
         triangles.push_back(triangle);
     }
 }
@@ -49,7 +47,8 @@ void appendWorldTriangles(const Scene& scene, const Instance& instance, const gl
 
 void appendLocalTriangles(const Scene& scene, const Instance& instance,
                           std::vector<SoupTriangle>& triangles) {
-    append(scene, instance, 0, false, [](const glm::vec3& p) { return p; }, triangles);
+    append(
+        scene, instance, 0, false, [](const glm::vec3& p) { return p; }, triangles);
 }
 
 } // namespace kilolux

@@ -10,9 +10,9 @@
 namespace kilolux {
 
 struct SoupTriangle {
-    glm::vec3 position[3];      // metres; counter-clockwise seen from the front
-    std::uint32_t id = 0;       // of the triangle within its primitive, plus Instance::firstTriangle in world space
-    bool swapped = false;       // position[1] and [2] were exchanged, because the transform mirrors
+    glm::vec3 position[3]; // metres; counter-clockwise seen from the front
+    std::uint32_t id = 0; // of the triangle within its primitive, plus Instance::firstTriangle in world space
+    bool swapped = false; // position[1] and [2] were exchanged, because the transform mirrors
     bool alphaTested = false;
 };
 
@@ -22,7 +22,6 @@ void appendWorldTriangles(const Scene& scene, const Instance& instance, const gl
                           std::vector<SoupTriangle>& triangles);
 
 // Triangles of one instance in the space of its mesh; ids count from 0.
-void appendLocalTriangles(const Scene& scene, const Instance& instance,
-                          std::vector<SoupTriangle>& triangles);
+void appendLocalTriangles(const Scene& scene, const Instance& instance, std::vector<SoupTriangle>& triangles);
 
 } // namespace kilolux

@@ -24,8 +24,9 @@ gpu::Buffer texelBuffer(gpu::Device& device, const char* name, VkFormat format, 
 constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT;
 constexpr VkFormat kFloat4 = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kUint2 = VK_FORMAT_R32G32_UINT;
-constexpr VkBufferUsageFlags kBuildInput = VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
-                                           VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+constexpr VkBufferUsageFlags kBuildInput =
+    VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR |
+    VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
 } // namespace
 
@@ -42,8 +43,7 @@ GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world, TraceBackEn
       alphaRecords_(texelBuffer(device, "alphaRecords", kUint4, world.alpha.records)),
       alphaTriangles_(texelBuffer(device, "alphaTriangles", kUint4, world.alpha.triangles)) {
     worldEntry_.upload(std::as_bytes(std::span(world.entries.data(), 1)));
-    if (backEnd == TraceBackEnd::RayQuery)
-        rayQuery_ = std::make_unique<RayQueryWorld>(device, world, *this);
+    if (backEnd == TraceBackEnd::RayQuery) rayQuery_ = std::make_unique<RayQueryWorld>(device, world, *this);
 }
 
 GpuRayWorld::~GpuRayWorld() = default;
@@ -53,8 +53,7 @@ void GpuRayWorld::update(const RayWorld& world) {
     worldEntry_.upload(std::as_bytes(std::span(world.entries.data(), 1)));
     if (world.topNodeCapacity > 0)
         nodes_.upload(std::as_bytes(std::span(world.nodes.data(), world.topNodeCapacity)));
-    if (rayQuery_)
-        rayQuery_->update(world);
+    if (rayQuery_) rayQuery_->update(world);
 }
 
 std::vector<gpu::PassUse> GpuRayWorld::alphaUses() {

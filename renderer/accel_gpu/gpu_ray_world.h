@@ -1,5 +1,5 @@
-// A RayWorld in device buffers, bound under the names of shaders/lib/trace.glsl and alpha.glsl, and where asked for
-// in acceleration structures too.
+// A RayWorld in device buffers, bound under the names of shaders/lib/trace.glsl and alpha.glsl, and where
+// asked for in acceleration structures too.
 #pragma once
 
 #include "renderer/accel/ray_world.h"
@@ -34,8 +34,8 @@ class GpuRayWorld {
     static std::vector<gpu::PassUse> alphaUses();
     gpu::Bindings alphaBindings() const;
 
-    // Pair corners as vertices: four of 12 bytes per pair. Readable by acceleration structure builds on devices
-    // with ray queries.
+    // Pair corners as vertices: four of 12 bytes per pair. Readable by acceleration structure builds on
+    // devices with ray queries.
     const gpu::Buffer& pairs() const { return pairs_; }
     const gpu::Buffer& pairIds() const { return pairIds_; }
     const gpu::Buffer& nodes() const { return nodes_; }

@@ -24,12 +24,12 @@ IndexedTriangles indexTriangles(const RayWorld& world, RayWorld::PairRange range
     for (std::uint32_t pair = range.first; pair < range.first + range.count; ++pair)
         for (std::uint32_t second = 0; second < 2; ++second) {
             const std::uint32_t id = second ? world.pairIds[pair].y : world.pairIds[pair].x;
-            if (id == BVH_ID_NONE)
-                continue;
+            if (id == BVH_ID_NONE) continue;
             const std::size_t geometry = (id & BVH_ID_ALPHA) != 0 ? 1 : 0;
             const std::uint32_t a = pair * 4;
             const std::uint32_t corners[2][3] = {{a, a + 1, a + 2}, {a + 2, a + 1, a + 3}};
-            result.indices[geometry].insert(result.indices[geometry].end(), corners[second], corners[second] + 3);
+            result.indices[geometry].insert(result.indices[geometry].end(), corners[second],
+                                            corners[second] + 3);
             result.names[geometry].push_back(pair * 2 + second);
         }
     return result;
@@ -58,9 +58,11 @@ gpu::AccelerationStructure build(gpu::Device& device, const char* name, VkAccele
     info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
     info.geometryCount = std::uint32_t(geometries.size());
     info.pGeometries = geometries.data();
-    VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    device.getAccelerationStructureBuildSizes(device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR,
-                                              &info, primitiveCounts.data(), &sizes);
+    VkAccelerationStructureBuildSizesInfoKHR sizes{
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
+    device.getAccelerationStructureBuildSizes(device.handle(),
+                                              VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info,
+                                              primitiveCounts.data(), &sizes);
     gpu::AccelerationStructure structure(device, name, type, sizes.accelerationStructureSize);
     gpu::BufferDesc scratchDesc;
     scratchDesc.name = "acceleration structure scratch";
@@ -97,8 +99,7 @@ RayQueryWorld::RayQueryWorld(gpu::Device& device, const RayWorld& world, const G
     std::vector<std::uint32_t> table(world.entries.size(), 0);
     std::map<std::uint32_t, std::uint32_t> bottomOfPairs; // moving instances share their mesh's
     const auto place = [&](std::uint32_t entry, RayWorld::PairRange range) {
-        if (range.count == 0)
-            return;
+        if (range.count == 0) return;
         const auto [known, isNew] = bottomOfPairs.emplace(range.first, std::uint32_t(bottoms_.size()));
         if (isNew) {
             tableOfBottom_.push_back(std::uint32_t(table.size()));
@@ -121,7 +122,8 @@ RayQueryWorld::RayQueryWorld(gpu::Device& device, const RayWorld& world, const G
     update(world);
 }
 
-void RayQueryWorld::buildBottom(const RayWorld& world, RayWorld::PairRange range, std::vector<std::uint32_t>& table) {
+void RayQueryWorld::buildBottom(const RayWorld& world, RayWorld::PairRange range,
+                                std::vector<std::uint32_t>& table) {
     const IndexedTriangles triangles = indexTriangles(world, range);
     std::vector<gpu::Buffer> inputs;
     std::vector<VkAccelerationStructureGeometryKHR> geometries;
@@ -130,7 +132,8 @@ void RayQueryWorld::buildBottom(const RayWorld& world, RayWorld::PairRange range
     table.resize(header + 2, 0);
     for (std::size_t kind = 0; kind < 2; ++kind) {
         // An empty geometry stays, so that the geometry's index says whether it is alpha-tested.
-        inputs.push_back(buildInput(device_, "ray query indices", std::as_bytes(std::span(triangles.indices[kind]))));
+        inputs.push_back(
+            buildInput(device_, "ray query indices", std::as_bytes(std::span(triangles.indices[kind]))));
         VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
         geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
         geometry.flags = kind == 0 ? VK_GEOMETRY_OPAQUE_BIT_KHR : 0;
@@ -147,15 +150,14 @@ void RayQueryWorld::buildBottom(const RayWorld& world, RayWorld::PairRange range
         table[header + kind] = std::uint32_t(table.size());
         table.insert(table.end(), triangles.names[kind].begin(), triangles.names[kind].end());
     }
-    bottoms_.push_back(build(device_, "ray query bottom level", VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR,
-                             geometries, counts));
+    bottoms_.push_back(build(device_, "ray query bottom level",
+                             VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, geometries, counts));
 }
 
 void RayQueryWorld::update(const RayWorld& world) {
     std::vector<VkAccelerationStructureInstanceKHR> instances;
     const auto add = [&](std::uint32_t entry, const glm::dmat4& anchoredFromLocal) {
-        if (bottomOfEntry_[entry] == kNoBottom)
-            return;
+        if (bottomOfEntry_[entry] == kNoBottom) return;
         VkAccelerationStructureInstanceKHR instance{};
         instance.transform = transformOf(anchoredFromLocal);
         instance.instanceCustomIndex = entry & 0xFFFFFFu;

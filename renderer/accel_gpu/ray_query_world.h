@@ -1,6 +1,6 @@
-// A RayWorld as Vulkan acceleration structures, for shaders/lib/trace_ray_query.glsl: one bottom level per BVH,
-// with opaque and alpha-tested triangles as two geometries, and one instance per entry. Corners are the pairs
-// of GpuRayWorld, so both back ends test the same numbers.
+// A RayWorld as Vulkan acceleration structures, for shaders/lib/trace_ray_query.glsl: one bottom level per
+// BVH, with opaque and alpha-tested triangles as two geometries, and one instance per entry. Corners are the
+// pairs of GpuRayWorld, so both back ends test the same numbers.
 #pragma once
 
 #include "renderer/accel_gpu/gpu_ray_world.h"

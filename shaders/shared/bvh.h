@@ -1,5 +1,6 @@
-// The tracer's data as the shaders read it: a two-wide BVH with boxes of 16 bits per plane, leaves of triangle
-// pairs, and entries that place one BVH in another. Every buffer is a texel buffer of 16-byte texels.
+// The tracer's data as the shaders read it: a two-wide BVH with boxes of 16 bits per plane, leaves of
+// triangle pairs, and entries that place one BVH in another. Every buffer is a texel buffer of 16-byte
+// texels.
 #ifndef KILOLUX_SHARED_BVH_H
 #define KILOLUX_SHARED_BVH_H
 #include "base.h"
@@ -18,8 +19,8 @@ KX_CONST uint BVH_LEAF_COUNT_SHIFT = 27u;
 KX_CONST uint BVH_LEAF_FIRST_MASK = 0x07FFFFFFu;
 KX_CONST uint BVH_ENTRY_MASK = 0x1FFFFFFFu;
 KX_CONST uint BVH_MAX_LEAF_PAIRS = 8u;
-// Pushes on the deepest path: one per level of the top level (18 for 65,536 moving instances), a return, one per
-// level of an entered BVH (40) and of the grids that nest in it (3).
+// Pushes on the deepest path: one per level of the top level (18 for 65,536 moving instances), a return, one
+// per level of an entered BVH (40) and of the grids that nest in it (3).
 KX_CONST uint BVH_STACK_SIZE = 64u;
 
 KX_CONST uint BVH_NODE_TEXELS = 2u;
@@ -45,8 +46,9 @@ struct BvhPair {
     vec3 d;
 };
 
-// Id of each triangle of a pair: index within the entry (29 bits), then how the corners were turned to fit the
-// pair (0 to 2 rotations; + 3 when corners 1 and 2 were exchanged first; 3 bits). The texel has one word each.
+// Id of each triangle of a pair: index within the entry (29 bits), then how the corners were turned to fit
+// the pair (0 to 2 rotations; + 3 when corners 1 and 2 were exchanged first; 3 bits). The texel has one word
+// each.
 KX_CONST uint BVH_ID_TURN_BITS = 3u;
 KX_CONST uint BVH_ID_TURN_MASK = 7u;
 // Ids of alpha-tested triangles carry the top bit.
@@ -83,12 +85,12 @@ KX_CONST uint ALPHA_FLAG_NEAREST = 16u;
 
 // How an alpha-tested instance finds its alpha: factor * texel(uv) * vertex alpha, tested against the cutoff.
 struct AlphaRecord {
-    uint firstTexel;    // into the R8 alpha texels
-    uint width;         // texels; 0 when the material has no texture
+    uint firstTexel; // into the R8 alpha texels
+    uint width;      // texels; 0 when the material has no texture
     uint height;
-    uint flags;         // ALPHA_WRAP_* of s, of t << ALPHA_WRAP_T_SHIFT, ALPHA_FLAG_*
-    vec3 uvRow0;        // u' = dot(uvRow0, (u, v, 1))
-    float factor;       // base colour alpha
+    uint flags;   // ALPHA_WRAP_* of s, of t << ALPHA_WRAP_T_SHIFT, ALPHA_FLAG_*
+    vec3 uvRow0;  // u' = dot(uvRow0, (u, v, 1))
+    float factor; // base colour alpha
     vec3 uvRow1;
     float cutoff;
     uint firstTriangle; // into the alpha triangles

@@ -1,6 +1,6 @@
-// Compares the compute BVH with Embree's rtcOccluded1 on the same shadow rays, in interleaved pairs within one
-// process: `bench_trace [--json FILE] [--size WxH] [--pairs N] [SCENE.gltf...]`. Prints build times, memory and
-// the median ratio; never passes or fails on time.
+// Compares the compute BVH with Embree's rtcOccluded1 on the same shadow rays, in interleaved pairs within
+// one process: `bench_trace [--json FILE] [--size WxH] [--pairs N] [SCENE.gltf...]`. Prints build times,
+// memory and the median ratio; never passes or fails on time.
 #include "tests/bench/trace_scenes.h"
 
 #include "renderer/accel_gpu/gpu_ray_world.h"
@@ -49,8 +49,8 @@ double median(std::vector<double> values) {
 }
 
 // Every thread takes every threads-th tile of 64 rays, as the shader's tiles are dealt out.
-RunTime runEmbree(const EmbreeScene& embree, const std::vector<TestRay>& rays, std::vector<std::uint8_t>& hits,
-                 unsigned threads) {
+RunTime runEmbree(const EmbreeScene& embree, const std::vector<TestRay>& rays,
+                  std::vector<std::uint8_t>& hits, unsigned threads) {
     return timeOf([&] {
         std::vector<std::thread> workers;
         for (unsigned worker = 0; worker < threads; ++worker)
@@ -68,8 +68,8 @@ class GpuRun {
   public:
     GpuRun(gpu::Device& device, gpu::PassResources& resources, const GpuRayWorld& world,
            const std::vector<TestRay>& rays, unsigned chunks)
-        : device_(device), pass_(resources, "trace_bench", uses()), world_(world), push_{std::uint32_t(rays.size()),
-                                                                                         chunks} {
+        : device_(device), pass_(resources, "trace_bench", uses()),
+          world_(world), push_{std::uint32_t(rays.size()), chunks} {
         gpu::BufferDesc desc{"benchRays", rays.size() * 32, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
         desc.texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
         rays_ = gpu::Buffer(device, desc);
@@ -147,17 +147,19 @@ SceneResult benchScene(gpu::Device& device, gpu::PassResources& resources, const
     const double mib = double(stats.nodeBytes + stats.triangleBytes) / (1 << 20);
     const std::size_t triangles = stats.staticTriangles + stats.movingTriangles;
     SceneResult result;
-    result.text = fmt::format(
-        "{}: {} triangles, {} rays, {:.1f} % occluded, {} differ\n"
-        "  build {:.1f} ms (flatten scene {:.1f}, pairs {:.1f}, Embree {:.1f}, flatten {:.1f}), depth {}, SAH cost {:.1f}\n"
-        "  memory {:.2f} MiB, {:.1f} bytes per triangle, {} nodes, {} pairs\n"
-        "  compute {:.1f} ms (first {:.0f}), rtcOccluded1 {:.1f} ms, ratio {:.3f} (from {:.3f} to {:.3f}; by processor time {:.3f})\n",
-        bench.name, triangles, rays.size(), 100.0 * occludedShare, different,
-        stats.flattenSceneMs + stats.pairMs + stats.buildMs + stats.flattenMs, stats.flattenSceneMs, stats.pairMs,
-        stats.buildMs, stats.flattenMs, stats.depth, stats.sahCost, mib, stats.bytesPerTriangle, stats.nodes,
-        stats.pairs, median(gpuMs), firstMs, median(embreeMs), median(ratios),
-        *std::min_element(ratios.begin(), ratios.end()), *std::max_element(ratios.begin(), ratios.end()),
-        median(cpuRatios));
+    result.text = fmt::format("{}: {} triangles, {} rays, {:.1f} % occluded, {} differ\n"
+                              "  build {:.1f} ms (flatten scene {:.1f}, pairs {:.1f}, Embree {:.1f}, flatten "
+                              "{:.1f}), depth {}, SAH cost {:.1f}\n"
+                              "  memory {:.2f} MiB, {:.1f} bytes per triangle, {} nodes, {} pairs\n"
+                              "  compute {:.1f} ms (first {:.0f}), rtcOccluded1 {:.1f} ms, ratio {:.3f} "
+                              "(from {:.3f} to {:.3f}; by processor time {:.3f})\n",
+                              bench.name, triangles, rays.size(), 100.0 * occludedShare, different,
+                              stats.flattenSceneMs + stats.pairMs + stats.buildMs + stats.flattenMs,
+                              stats.flattenSceneMs, stats.pairMs, stats.buildMs, stats.flattenMs, stats.depth,
+                              stats.sahCost, mib, stats.bytesPerTriangle, stats.nodes, stats.pairs,
+                              median(gpuMs), firstMs, median(embreeMs), median(ratios),
+                              *std::min_element(ratios.begin(), ratios.end()),
+                              *std::max_element(ratios.begin(), ratios.end()), median(cpuRatios));
     result.json = fmt::format(
         R"({{"scene":"{}","triangles":{},"rays":{},"occluded":{:.4f},"different":{},"buildMs":{:.2f},)"
         R"("mebibytes":{:.3f},"bytesPerTriangle":{:.2f},"computeMs":{:.3f},"firstDispatchMs":{:.1f},)"
@@ -190,7 +192,8 @@ int run(int argc, char** argv) {
     const Options options = parse(argc, argv);
     gpu::Device device;
     gpu::PassResources resources(device);
-    fmt::print("device '{}', {} threads, {} interleaved pairs\n", device.name(), options.threads, options.pairs);
+    fmt::print("device '{}', {} threads, {} interleaved pairs\n", device.name(), options.threads,
+               options.pairs);
     std::vector<BenchScene> scenes;
     scenes.push_back(makeHall());
     scenes.push_back(makeMovingHall());
@@ -202,7 +205,8 @@ int run(int argc, char** argv) {
         fmt::print("{}", result.text);
         json += (json.empty() ? "" : ",\n") + result.json;
     }
-    json = fmt::format("{{\"device\":\"{}\",\"threads\":{},\"scenes\":[\n{}]}}\n", device.name(), options.threads, json);
+    json = fmt::format("{{\"device\":\"{}\",\"threads\":{},\"scenes\":[\n{}]}}\n", device.name(),
+                       options.threads, json);
     if (options.json.empty())
         fmt::print("{}", json);
     else
@@ -214,4 +218,6 @@ int run(int argc, char** argv) {
 
 } // namespace kilolux::test
 
-int main(int argc, char** argv) { return kilolux::test::run(argc, argv); }
+int main(int argc, char** argv) {
+    return kilolux::test::run(argc, argv);
+}

@@ -37,7 +37,8 @@ void addHallShell(Scene& scene) {
     addNode(scene, 1, placed({-15.0, 3.0, 0.0}, 0.0, {1.0, 2.0, 40.0}));
     addNode(scene, 1, placed({15.0, 3.0, 0.0}, 0.0, {1.0, 2.0, 40.0}));
     for (int column = 0; column < 16; ++column)
-        addNode(scene, 1, placed({-12.0 + 8.0 * (column % 4), 3.0, -12.0 + 8.0 * (column / 4)}, 0.0, glm::dvec3(1.0)));
+        addNode(scene, 1,
+                placed({-12.0 + 8.0 * (column % 4), 3.0, -12.0 + 8.0 * (column / 4)}, 0.0, glm::dvec3(1.0)));
 }
 
 void addHallThings(Scene& scene, std::mt19937& random) {
@@ -65,7 +66,8 @@ BenchScene makeHall() {
     bench.eye = {-13.0, 2.5, -13.0};
     bench.target = {4.0, 1.0, 4.0};
     for (int light = 0; light < 256; ++light)
-        bench.lights.push_back(glm::vec3(uniform(random, -14, 14), uniform(random, 2.0, 5.5), uniform(random, -14, 14)));
+        bench.lights.push_back(
+            glm::vec3(uniform(random, -14, 14), uniform(random, 2.0, 5.5), uniform(random, -14, 14)));
     return bench;
 }
 
@@ -88,8 +90,7 @@ double enclosure(const RayWorld& world, const glm::vec3& p, double& meanDistance
     for (int i = 0; i < kDirections; ++i) {
         const CpuHit hit = nearest(world, p, randomDirection(random), 0.0f, 1e30f);
         // Backs of walls: the point is inside a solid.
-        if (hit.instance == 0xFFFFFFFFu || hit.backFace)
-            continue;
+        if (hit.instance == 0xFFFFFFFFu || hit.backFace) continue;
         ++hits;
         meanDistanceM += hit.tM / kDirections;
     }
@@ -114,11 +115,11 @@ BenchScene loadBenchScene(const std::string& path) {
     std::mt19937 random(2);
     double widest = -1.0;
     for (int tries = 0; tries < 20000 && bench.lights.size() < 256; ++tries) {
-        const glm::dvec3 p = bounds.min + size * glm::dvec3(uniform(random, 0.02, 0.98), uniform(random, 0.02, 0.98),
-                                                            uniform(random, 0.02, 0.98));
+        const glm::dvec3 p =
+            bounds.min + size * glm::dvec3(uniform(random, 0.02, 0.98), uniform(random, 0.02, 0.98),
+                                           uniform(random, 0.02, 0.98));
         double distanceM = 0.0;
-        if (enclosure(world, glm::vec3(p), distanceM) < (tries < 10000 ? 0.7 : 0.0))
-            continue;
+        if (enclosure(world, glm::vec3(p), distanceM) < (tries < 10000 ? 0.7 : 0.0)) continue;
         bench.lights.push_back(glm::vec3(p));
         if (distanceM > widest) {
             widest = distanceM;
@@ -141,7 +142,8 @@ std::vector<TestRay> shadowRays(const BenchScene& bench, const RayWorld& world, 
     for (int index = 0; index < width * height; ++index) {
         const int tile = index / 64, inTile = index % 64;
         const int x = tile % (width / 8) * 8 + inTile % 8, y = tile / (width / 8) * 8 + inTile / 8;
-        const double sx = (2.0 * (x + 0.5) / width - 1.0) * width / height, sy = 1.0 - 2.0 * (y + 0.5) / height;
+        const double sx = (2.0 * (x + 0.5) / width - 1.0) * width / height,
+                     sy = 1.0 - 2.0 * (y + 0.5) / height;
         const glm::vec3 eye(bench.eye), dir(glm::normalize(forward + (right * sx + up * sy) * 0.7));
         const CpuHit hit = nearest(world, eye, dir, 0.0f, 1e30f);
         glm::vec3 origin = eye;
@@ -153,7 +155,8 @@ std::vector<TestRay> shadowRays(const BenchScene& bench, const RayWorld& world, 
             for (int k = 0; k < 3; ++k)
                 corner[k] = glm::dvec3(
                     instance.worldFromLocal *
-                    glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[hit.primitive * 3 + k]]), 1.0));
+                    glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[hit.primitive * 3 + k]]),
+                               1.0));
             glm::vec3 ng(glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0])));
             ng *= glm::dot(ng, dir) > 0.0f ? -1.0f : 1.0f;
             const glm::vec3 p(corner[0] + (corner[1] - corner[0]) * double(hit.barycentrics.x) +

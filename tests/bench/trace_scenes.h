@@ -1,5 +1,5 @@
-// Scenes and rays for the tracer's bench: what a camera sees, and from there one shadow ray per pixel to a light
-// chosen uniformly.
+// Scenes and rays for the tracer's bench: what a camera sees, and from there one shadow ray per pixel to a
+// light chosen uniformly.
 #pragma once
 
 #include "renderer/accel/ray_world.h"

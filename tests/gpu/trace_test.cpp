@@ -1,5 +1,5 @@
-// Both tracing back ends on the device: the compute BVH against the same shader source run on the CPU, ray query
-// against the compute BVH, with moving instances, alpha masks, and rays that leave surfaces.
+// Both tracing back ends on the device: the compute BVH against the same shader source run on the CPU, ray
+// query against the compute BVH, with moving instances, alpha masks, and rays that leave surfaces.
 #include "tests/gpu/support/gpu_fixture.h"
 #include "tests/unit/accel/scene_kit.h"
 
@@ -34,7 +34,8 @@ class TraceTest : public GpuTest {
 
     std::vector<TracedRay> runRayQuery(const RayWorld& world, const std::vector<TestRay>& rays) {
         const GpuRayWorld buffers(device(), world, TraceBackEnd::RayQuery);
-        gpu::ComputePass pass(resources(), "trace_rays", withTestUses(GpuRayWorld::traceUses(TraceBackEnd::RayQuery)), {},
+        gpu::ComputePass pass(resources(), "trace_rays",
+                              withTestUses(GpuRayWorld::traceUses(TraceBackEnd::RayQuery)), {},
                               {"KX_RAY_QUERY"});
         return run(pass, buffers.traceBindings(), world.hasAlpha(), rays);
     }
@@ -68,7 +69,8 @@ class TraceTest : public GpuTest {
             texels.push_back(glm::vec4(ray.origin, 0.0f));
             texels.push_back(glm::vec4(ray.dir, ray.tMaxM));
         }
-        gpu::BufferDesc desc{"testRays", texels.size() * sizeof(glm::vec4), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
+        gpu::BufferDesc desc{"testRays", texels.size() * sizeof(glm::vec4),
+                             VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
         desc.texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
         gpu::Buffer rayBuffer(device(), desc);
         rayBuffer.upload(texels);
@@ -96,17 +98,19 @@ std::vector<TracedRay> runCpu(const RayWorld& world, const std::vector<TestRay>&
 
 glm::dmat4 placed(const glm::dvec3& position, double scale, double turnRad) {
     const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), position);
-    return glm::scale(glm::rotate(moved, turnRad, glm::normalize(glm::dvec3(1.0, 2.0, 0.5))), glm::dvec3(scale));
+    return glm::scale(glm::rotate(moved, turnRad, glm::normalize(glm::dvec3(1.0, 2.0, 0.5))),
+                      glm::dvec3(scale));
 }
 
 Scene clutter(double scale) {
-    Scene scene = makeScene({makeTorus(40, 24, 2.0, 0.7, 0.2), makeSphere(24, 24, 1.2), makeBox({3.0, 0.001, 3.0})},
-                            placed(glm::dvec3(0.0), scale, 0.3));
+    Scene scene =
+        makeScene({makeTorus(40, 24, 2.0, 0.7, 0.2), makeSphere(24, 24, 1.2), makeBox({3.0, 0.001, 3.0})},
+                  placed(glm::dvec3(0.0), scale, 0.3));
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int i = 0; i < 12; ++i) {
-        const glm::dmat4 place =
-            placed(glm::dvec3(unit(random), unit(random), unit(random)) * 5.0 * scale, 0.5 * scale, unit(random) * 3.0);
+        const glm::dmat4 place = placed(glm::dvec3(unit(random), unit(random), unit(random)) * 5.0 * scale,
+                                        0.5 * scale, unit(random) * 3.0);
         addNode(scene, i % 3, i % 4 == 0 ? glm::scale(place, glm::dvec3(-1.0, 1.0, 1.5)) : place);
     }
     return scene;
@@ -117,8 +121,7 @@ std::vector<TestRay> raysThrough(const Box& bounds, int count, unsigned seed) {
     std::vector<TestRay> rays;
     for (int i = 0; i < count; ++i) {
         rays.push_back(randomRay(random, bounds.lower, bounds.upper, 0.3));
-        if (i % 4 == 0)
-            rays.back().tMaxM = 0.3f * glm::length(bounds.upper - bounds.lower);
+        if (i % 4 == 0) rays.back().tMaxM = 0.3f * glm::length(bounds.upper - bounds.lower);
     }
     return rays;
 }
@@ -173,13 +176,13 @@ TEST_F(TraceTest, ComputeEqualsTheSameSourceOnTheCpu) {
         const std::vector<TestRay> rays = raysThrough(world.staticBounds, 20000, 1);
         const std::vector<TracedRay> expected = runCpu(world, rays);
         EXPECT_LE(compare(runCompute(world, rays), expected), 4) << scale;
-        EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](const TracedRay& r) { return r.hit(); }), 4000);
+        EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](const TracedRay& r) { return r.hit(); }),
+                  4000);
     }
 }
 
 TEST_F(TraceTest, RayQueryEqualsComputeWithinTies) {
-    if (!device().hasRayQuery())
-        GTEST_SKIP() << "'" << device().name() << "' has no ray query";
+    if (!device().hasRayQuery()) GTEST_SKIP() << "'" << device().name() << "' has no ray query";
     for (const double scale : {0.01, 1.0, 1000.0}) {
         const Scene scene = clutter(scale);
         const RayWorld world = buildWorld(scene, enumerateInstances(scene), {}, glm::dvec3(0.0));
@@ -198,8 +201,7 @@ TEST_F(TraceTest, MovingInstancesInBothBackEnds) {
         moving[i] = i % 2 == 1;
     RayWorld world = buildWorld(scene, before, moving, glm::dvec3(0.0));
     for (std::size_t i = 0; i < moving.size(); ++i)
-        if (moving[i])
-            scene.nodes[i].worldFromNode[3] += glm::dvec4(1.0, 0.5, -0.7, 0.0);
+        if (moving[i]) scene.nodes[i].worldFromNode[3] += glm::dvec4(1.0, 0.5, -0.7, 0.0);
     const glm::dvec3 anchor(2.0, 1.0, 0.0);
     const std::vector<Instance> after = enumerateInstances(scene);
     updateInstances(world, after, anchor);
@@ -252,7 +254,8 @@ TEST_F(TraceTest, AlphaMasksInBothBackEnds) {
     for (const TracedRay& ray : expected)
         if (ray.hit() && instances[ray.instance].role == SurfaceRole::AlphaTested) {
             ++tested;
-            EXPECT_TRUE(alphaPasses(world, ray.instance, ray.primitive, {ray.barycentric1, ray.barycentric2}));
+            EXPECT_TRUE(
+                alphaPasses(world, ray.instance, ray.primitive, {ray.barycentric1, ray.barycentric2}));
         }
     EXPECT_GT(tested, 500);
 }
@@ -260,7 +263,8 @@ TEST_F(TraceTest, AlphaMasksInBothBackEnds) {
 TEST_F(TraceTest, SurfacesDoNotShadowThemselvesInBothBackEnds) {
     std::mt19937 random(6);
     for (const double scale : {0.01, 1.0, 10000.0}) {
-        const Scene scene = makeScene({makeSphere(40, 80), makeBox({0.9, 0.02, 0.9})}, placed(glm::dvec3(0.0), scale, 0.4));
+        const Scene scene =
+            makeScene({makeSphere(40, 80), makeBox({0.9, 0.02, 0.9})}, placed(glm::dvec3(0.0), scale, 0.4));
         for (int mesh = 0; mesh < 2; ++mesh) {
             Scene one = scene;
             one.nodes = {scene.nodes[mesh]};
@@ -272,14 +276,15 @@ TEST_F(TraceTest, SurfacesDoNotShadowThemselvesInBothBackEnds) {
                 const glm::vec3* q = triangles[random() % triangles.size()].position;
                 const double r = std::sqrt(unit(random)), s = unit(random);
                 const glm::vec3 p = q[0] * float(1.0 - r) + q[1] * float(r * (1.0 - s)) + q[2] * float(r * s);
-                const glm::vec3 ng(glm::normalize(glm::cross(glm::dvec3(q[1]) - glm::dvec3(q[0]),
-                                                             glm::dvec3(q[2]) - glm::dvec3(q[0]))));
+                const glm::vec3 ng(glm::normalize(
+                    glm::cross(glm::dvec3(q[1]) - glm::dvec3(q[0]), glm::dvec3(q[2]) - glm::dvec3(q[0]))));
                 glm::vec3 dir = randomDirection(random);
                 dir *= glm::dot(dir, ng) < 0.0f ? -1.0f : 1.0f;
                 rays.push_back({offsetRayOrigin(p, ng, dir, positionErrorM(p)), dir, 1e30f});
             }
             const auto blocked = [](const std::vector<TracedRay>& results) {
-                return std::count_if(results.begin(), results.end(), [](const TracedRay& r) { return r.occluded(); });
+                return std::count_if(results.begin(), results.end(),
+                                     [](const TracedRay& r) { return r.occluded(); });
             };
             EXPECT_EQ(blocked(runCompute(world, rays)), 0) << scale;
             if (device().hasRayQuery()) {
@@ -300,9 +305,11 @@ TEST_F(TraceTest, NothingLeaksAtEdgesOnTheDevice) {
         const SoupTriangle& t = triangles[random() % triangles.size()];
         const int corner = int(random() % 3);
         const glm::dvec3 target =
-            glm::mix(glm::dvec3(t.position[corner]), glm::dvec3(t.position[(corner + 1) % 3]), i % 2 ? unit(random) : 0.0);
+            glm::mix(glm::dvec3(t.position[corner]), glm::dvec3(t.position[(corner + 1) % 3]),
+                     i % 2 ? unit(random) : 0.0);
         const glm::dvec3 origin(0.1, 0.2, -0.3);
-        rays.push_back({glm::vec3(origin), glm::vec3(glm::normalize(target - glm::dvec3(glm::vec3(origin)))), 1e30f});
+        rays.push_back(
+            {glm::vec3(origin), glm::vec3(glm::normalize(target - glm::dvec3(glm::vec3(origin)))), 1e30f});
     }
     int leaks = 0;
     for (const TracedRay& ray : runCompute(world, rays))

@@ -29,7 +29,9 @@ std::array<glm::vec3, 3> originalCorners(const BvhPair& pair, bool second, std::
     return corners;
 }
 
-std::uint32_t indexOf(std::uint32_t id) { return (id & BVH_ID_NONE) >> BVH_ID_TURN_BITS; }
+std::uint32_t indexOf(std::uint32_t id) {
+    return (id & BVH_ID_NONE) >> BVH_ID_TURN_BITS;
+}
 
 void expectSameTriangles(const std::vector<SoupTriangle>& triangles, const std::vector<BvhPair>& pairs,
                          const std::vector<glm::uvec2>& ids) {
@@ -38,8 +40,7 @@ void expectSameTriangles(const std::vector<SoupTriangle>& triangles, const std::
     for (std::size_t i = 0; i < pairs.size(); ++i)
         for (const bool second : {false, true}) {
             const std::uint32_t id = second ? ids[i].y : ids[i].x;
-            if (id == BVH_ID_NONE)
-                continue;
+            if (id == BVH_ID_NONE) continue;
             EXPECT_TRUE(found.emplace(indexOf(id), originalCorners(pairs[i], second, id)).second);
         }
     ASSERT_EQ(found.size(), triangles.size());
@@ -56,8 +57,7 @@ double plane(const BoxGrid& grid, int axis, std::uint32_t q) {
 class TreeCheck {
   public:
     explicit TreeCheck(const Bvh& bvh) : bvh_(bvh), seen_(bvh.pairs.size(), 0) {
-        if (bvh.rootRef != BVH_REF_DONE)
-            visit(bvh.rootRef, 0);
+        if (bvh.rootRef != BVH_REF_DONE) visit(bvh.rootRef, 0);
     }
     std::uint32_t depth = 0;
     bool allSeenOnce() const {

@@ -16,7 +16,8 @@ double uniform(std::mt19937& random, double from, double to) {
 }
 
 // A grid of (rows + 1) x (columns + 1) vertices closed by wrapping indices where told to.
-std::vector<std::uint32_t> gridIndices(int rows, int columns, const std::function<std::uint32_t(int, int)>& id) {
+std::vector<std::uint32_t> gridIndices(int rows, int columns,
+                                       const std::function<std::uint32_t(int, int)>& id) {
     std::vector<std::uint32_t> indices;
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
@@ -43,10 +44,8 @@ Primitive makePrimitive(std::vector<glm::vec3> positions, std::vector<std::uint3
 Primitive makeSphere(int rings, int segments, double radiusM) {
     std::vector<glm::vec3> positions;
     const auto id = [&](int ring, int segment) -> std::uint32_t {
-        if (ring == 0)
-            return 0;
-        if (ring == rings)
-            return 1;
+        if (ring == 0) return 0;
+        if (ring == rings) return 1;
         return std::uint32_t(2 + (ring - 1) * segments + segment % segments);
     };
     positions.push_back(glm::vec3(0.0f, float(radiusM), 0.0f));
@@ -64,8 +63,8 @@ Primitive makeSphere(int rings, int segments, double radiusM) {
 Primitive makeBox(const glm::dvec3& halfSizeM) {
     std::vector<glm::vec3> positions;
     for (int corner = 0; corner < 8; ++corner)
-        positions.push_back(glm::vec3(halfSizeM * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1,
-                                                             corner & 4 ? 1 : -1)));
+        positions.push_back(
+            glm::vec3(halfSizeM * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1)));
     return makePrimitive(std::move(positions), {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                                                 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5});
 }
@@ -76,8 +75,9 @@ Primitive makeTorus(int rings, int segments, double majorM, double minorM, doubl
         for (int segment = 0; segment < segments; ++segment) {
             const double u = 2.0 * kPi * ring / rings, v = 2.0 * kPi * segment / segments;
             const double r = minorM + waveM * std::sin(7.0 * u + 3.0 * v);
-            positions.push_back(glm::vec3(glm::dvec3((majorM + r * std::cos(v)) * std::cos(u), r * std::sin(v),
-                                                     (majorM + r * std::cos(v)) * std::sin(u))));
+            positions.push_back(
+                glm::vec3(glm::dvec3((majorM + r * std::cos(v)) * std::cos(u), r * std::sin(v),
+                                     (majorM + r * std::cos(v)) * std::sin(u))));
         }
     return makePrimitive(std::move(positions), gridIndices(rings, segments, [=](int ring, int segment) {
                              return std::uint32_t((ring % rings) * segments + segment % segments);
@@ -109,8 +109,7 @@ Primitive makeSoup(int triangles, double edgeM, unsigned seed) {
                 offset = (glm::dvec3(positions[positions.size() - 1]) - centre) * uniform(random, 0.5, 1.5) +
                          randomDirectionF64(random) * edgeM * 1e-4; // a sliver
             glm::dvec3 position = centre + offset;
-            if (kind == 1)
-                position[t % 3] = std::round(centre[t % 3] * 4.0) / 4.0; // coplanar with others
+            if (kind == 1) position[t % 3] = std::round(centre[t % 3] * 4.0) / 4.0; // coplanar with others
             indices.push_back(std::uint32_t(positions.size()));
             positions.push_back(glm::vec3(position));
         }
@@ -144,7 +143,9 @@ glm::dvec3 randomDirectionF64(std::mt19937& random) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-glm::vec3 randomDirection(std::mt19937& random) { return glm::vec3(randomDirectionF64(random)); }
+glm::vec3 randomDirection(std::mt19937& random) {
+    return glm::vec3(randomDirectionF64(random));
+}
 
 TestRay randomRay(std::mt19937& random, const glm::vec3& lower, const glm::vec3& upper, double grow) {
     const glm::dvec3 size = glm::dvec3(upper) - glm::dvec3(lower);
@@ -162,8 +163,7 @@ TestRay randomRay(std::mt19937& random, const glm::vec3& lower, const glm::vec3&
 std::vector<SoupTriangle> worldTriangles(const Scene& scene, const glm::dvec3& anchor) {
     std::vector<SoupTriangle> triangles;
     for (const Instance& instance : enumerateInstances(scene))
-        if (instance.role != SurfaceRole::Absent)
-            appendWorldTriangles(scene, instance, anchor, triangles);
+        if (instance.role != SurfaceRole::Absent) appendWorldTriangles(scene, instance, anchor, triangles);
     return triangles;
 }
 
@@ -186,8 +186,7 @@ ExactHit nearestExact(const std::vector<SoupTriangle>& triangles, const TestRay&
         const double t = glm::dot(normal, a) / glm::dot(normal, dir);
         if (t < ray.tMaxM * 1.001 && t > -1e-3)
             best.edgeMargin = std::min(best.edgeMargin, longest > 0.0 ? std::abs(inside) / longest : 0.0);
-        if (inside < 0.0 || det == 0.0 || !(t >= 0.0 && t < ray.tMaxM))
-            continue;
+        if (inside < 0.0 || det == 0.0 || !(t >= 0.0 && t < ray.tMaxM)) continue;
         best.hit = true;
         best.tM = std::min(best.tM, t);
     }
@@ -200,12 +199,12 @@ EmbreeScene::EmbreeScene(const std::vector<SoupTriangle>& triangles)
     rtcCommitScene(scene_);
 }
 
-EmbreeScene::EmbreeScene(const Scene& scene, const std::vector<Instance>& instances, const std::vector<bool>& moving)
+EmbreeScene::EmbreeScene(const Scene& scene, const std::vector<Instance>& instances,
+                         const std::vector<bool>& moving)
     : device_(rtcNewDevice(nullptr)), scene_(newScene()) {
     std::vector<SoupTriangle> fixed;
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        if (instances[i].role == SurfaceRole::Absent)
-            continue;
+        if (instances[i].role == SurfaceRole::Absent) continue;
         if (moving.empty() || !moving[i]) {
             appendWorldTriangles(scene, instances[i], glm::dvec3(0.0), fixed);
             continue;
@@ -235,8 +234,7 @@ RTCScene EmbreeScene::newScene() const {
 }
 
 void EmbreeScene::attachTriangles(RTCScene scene, const std::vector<SoupTriangle>& triangles) const {
-    if (triangles.empty())
-        return;
+    if (triangles.empty()) return;
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), triangles.size() * 3));
@@ -284,7 +282,8 @@ float EmbreeScene::nearest(const TestRay& ray) const {
     query.ray = embreeRay(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
-    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity() : query.ray.tfar;
+    return query.hit.geomID == RTC_INVALID_GEOMETRY_ID ? std::numeric_limits<float>::infinity()
+                                                       : query.ray.tfar;
 }
 
 } // namespace kilolux::test

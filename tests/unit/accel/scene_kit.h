@@ -1,5 +1,5 @@
-// Small scenes made in code, and two references for rays: every triangle tested in double precision, and Embree
-// in robust mode. Shared by the tests of accel and the tracer's bench.
+// Small scenes made in code, and two references for rays: every triangle tested in double precision, and
+// Embree in robust mode. Shared by the tests of accel and the tracer's bench.
 #pragma once
 
 #include "renderer/accel/ray_world.h"
@@ -61,7 +61,8 @@ ExactHit nearestExact(const std::vector<SoupTriangle>& triangles, const TestRay&
 class EmbreeScene {
   public:
     explicit EmbreeScene(const std::vector<SoupTriangle>& triangles);
-    // With the instancing of buildWorld(): static triangles in one mesh, each moving instance an Embree instance.
+    // With the instancing of buildWorld(): static triangles in one mesh, each moving instance an Embree
+    // instance.
     EmbreeScene(const Scene& scene, const std::vector<Instance>& instances, const std::vector<bool>& moving);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;

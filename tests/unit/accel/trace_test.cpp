@@ -1,5 +1,5 @@
-// Rays through the shaders' traversal, compiled as C++: against exact arithmetic, against Embree, at edges and
-// vertices, from surfaces, at scales from a centimetre to 10 km, with moving instances.
+// Rays through the shaders' traversal, compiled as C++: against exact arithmetic, against Embree, at edges
+// and vertices, from surfaces, at scales from a centimetre to 10 km, with moving instances.
 #include "tests/unit/accel/scene_kit.h"
 
 #include "renderer/accel/ray_world_cpu.h"
@@ -25,7 +25,9 @@ glm::dmat4 placed(const glm::dvec3& position, double scale) {
 }
 
 // KILOLUX_SLOW_TESTS=1 asks for the ten million rays that the design names.
-int rayCount(int quick) { return std::getenv("KILOLUX_SLOW_TESTS") ? quick * 10 : quick; }
+int rayCount(int quick) {
+    return std::getenv("KILOLUX_SLOW_TESTS") ? quick * 10 : quick;
+}
 
 struct Comparison {
     int rays = 0;
@@ -43,8 +45,8 @@ Comparison compareToExact(const Scene& scene, int rays, unsigned seed) {
     for (int i = 0; i < rays; ++i) {
         TestRay ray = randomRay(random, world.staticBounds.lower, world.staticBounds.upper, 0.5);
         if (i % 3 == 0)
-            ray.tMaxM = std::uniform_real_distribution<float>(
-                0.1f, 1.0f)(random)*glm::length(world.staticBounds.upper - world.staticBounds.lower);
+            ray.tMaxM = std::uniform_real_distribution<float>(0.1f, 1.0f)(random) *
+                        glm::length(world.staticBounds.upper - world.staticBounds.lower);
         const ExactHit exact = nearestExact(triangles, ray);
         const CpuHit hit = nearest(world, ray.origin, ray.dir, 0.0f, ray.tMaxM);
         const bool any = occluded(world, ray.origin, ray.dir, 0.0f, ray.tMaxM);
@@ -53,8 +55,7 @@ Comparison compareToExact(const Scene& scene, int rays, unsigned seed) {
                           (!found || std::abs(hit.tM - exact.tM) <= 1e-4 * (1.0 + exact.tM));
         ++result.rays;
         result.hits += found;
-        if (!same)
-            ++(exact.edgeMargin < 1e-5 ? result.ties : result.wrong);
+        if (!same) ++(exact.edgeMargin < 1e-5 ? result.ties : result.wrong);
     }
     return result;
 }
@@ -111,24 +112,21 @@ int countSelfHits(const Scene& scene, const glm::dvec3& anchor, int rays, unsign
         viewDir *= glm::dot(viewDir, normal) < 0.0 ? -1.0 : 1.0;
         const TestRay view = rayTo(surface + viewDir * viewDistance, surface);
         const CpuHit hit = nearest(world, view.origin, view.dir, 0.0f, 1e30f);
-        if (hit.instance == 0xFFFFFFFFu)
-            continue; // past the silhouette by a rounding
+        if (hit.instance == 0xFFFFFFFFu) continue; // past the silhouette by a rounding
         // The triangle that was hit: a silhouette's ray may have changed it.
         const SoupTriangle& met = triangles[hit.primitive];
         const glm::vec3* q = met.position;
-        const glm::vec3 p = q[0] * (1.0f - hit.barycentrics.x - hit.barycentrics.y) + q[1] * hit.barycentrics.x +
-                            q[2] * hit.barycentrics.y;
-        const glm::dvec3 metNormal =
-            glm::normalize(glm::cross(glm::dvec3(q[1]) - glm::dvec3(q[0]), glm::dvec3(q[2]) - glm::dvec3(q[0])));
+        const glm::vec3 p = q[0] * (1.0f - hit.barycentrics.x - hit.barycentrics.y) +
+                            q[1] * hit.barycentrics.x + q[2] * hit.barycentrics.y;
+        const glm::dvec3 metNormal = glm::normalize(
+            glm::cross(glm::dvec3(q[1]) - glm::dvec3(q[0]), glm::dvec3(q[2]) - glm::dvec3(q[0])));
         glm::dvec3 away = randomDirectionF64(random);
         if (i % 4 == 0) // grazing
             away = glm::normalize(away - metNormal * glm::dot(metNormal, away) * 0.999);
         away *= glm::dot(away, metNormal) < 0.0 ? -1.0 : 1.0;
         const glm::vec3 dir(away);
-        if (glm::dot(glm::vec3(metNormal), dir) <= 0.0f)
-            continue;
-        const glm::vec3 origin =
-            offsetRayOrigin(p, glm::vec3(metNormal), dir, positionErrorM(p));
+        if (glm::dot(glm::vec3(metNormal), dir) <= 0.0f) continue;
+        const glm::vec3 origin = offsetRayOrigin(p, glm::vec3(metNormal), dir, positionErrorM(p));
         selfHits += occluded(world, origin, dir, 0.0f, 1e30f);
     }
     return selfHits;
@@ -181,8 +179,9 @@ TEST(Trace, DetailInAWideWorldHasItsOwnGrid) {
             const float expected = embree.nearest(ray);
             const CpuHit hit = nearest(world, ray.origin + shift, ray.dir, 0.0f, 1e30f);
             hits += std::isfinite(expected);
-            different += std::isfinite(expected) != (hit.instance != 0xFFFFFFFFu) ||
-                         (std::isfinite(expected) && std::abs(hit.tM - expected) > 1e-4f * (0.01f + expected));
+            different +=
+                std::isfinite(expected) != (hit.instance != 0xFFFFFFFFu) ||
+                (std::isfinite(expected) && std::abs(hit.tM - expected) > 1e-4f * (0.01f + expected));
         }
         EXPECT_LE(different, 10);
         EXPECT_GT(hits, 3000);
@@ -224,16 +223,15 @@ TEST(Trace, ReportsWhatWasHit) {
     for (int i = 0; i < 20000; ++i) {
         const TestRay ray = randomRay(random, world.staticBounds.lower, world.staticBounds.upper, 0.2);
         const CpuHit hit = nearest(world, ray.origin, ray.dir, 0.0f, 1e30f);
-        if (hit.instance == 0xFFFFFFFFu)
-            continue;
+        if (hit.instance == 0xFFFFFFFFu) continue;
         const Instance& instance = instances.at(hit.instance);
         const Primitive& primitive = primitiveOf(scene, instance);
         ASSERT_LT(hit.primitive, instance.triangleCount);
         glm::dvec3 corner[3];
         for (int k = 0; k < 3; ++k)
-            corner[k] = glm::dvec3(instance.worldFromLocal *
-                                   glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[hit.primitive * 3 + k]]),
-                                              1.0));
+            corner[k] = glm::dvec3(
+                instance.worldFromLocal *
+                glm::dvec4(glm::dvec3(primitive.positions[primitive.indices[hit.primitive * 3 + k]]), 1.0));
         const double b1 = hit.barycentrics.x, b2 = hit.barycentrics.y;
         const glm::dvec3 p = corner[0] * (1.0 - b1 - b2) + corner[1] * b1 + corner[2] * b2;
         EXPECT_LT(glm::length(p - (glm::dvec3(ray.origin) + glm::dvec3(ray.dir) * double(hit.tM))), 2e-5);
@@ -265,7 +263,8 @@ TEST(Trace, ConvexMeshesDoNotShadowThemselves) {
     const int rays = rayCount(50000);
     for (const double scale : {0.01, 0.1, 1.0, 100.0, 10000.0}) {
         const glm::dmat4 place = placed(glm::dvec3(0.0), scale);
-        EXPECT_EQ(countSelfHits(makeScene({makeSphere(40, 80)}, place), glm::dvec3(0.0), rays, 31), 0) << scale;
+        EXPECT_EQ(countSelfHits(makeScene({makeSphere(40, 80)}, place), glm::dvec3(0.0), rays, 31), 0)
+            << scale;
         EXPECT_EQ(countSelfHits(makeScene({makeBox({1.0, 0.3, 2.0})}, place), glm::dvec3(0.0), rays, 32), 0)
             << scale;
     }
@@ -275,7 +274,8 @@ TEST(Trace, ConvexMeshesDoNotShadowThemselves) {
     EXPECT_EQ(countSelfHits(scene, far - glm::dvec3(3.0, 1.0, 2.0), rays, 33), 0);
     EXPECT_EQ(countSelfHits(scene, glm::dvec3(0.0), rays, 34), 0);
     // Turned, so that no plane is aligned with an axis, and stretched.
-    const glm::dmat4 turned = glm::rotate(placed({3.0, 2.0, 1.0}, 1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
+    const glm::dmat4 turned =
+        glm::rotate(placed({3.0, 2.0, 1.0}, 1.0), 0.7, glm::normalize(glm::dvec3(1, 2, 3)));
     EXPECT_EQ(countSelfHits(makeScene({makeBox({50.0, 0.3, 20.0})}, turned), glm::dvec3(0.0), rays, 35), 0);
 }
 
@@ -285,15 +285,15 @@ TEST(Trace, WallOfOneMillimetreStopsLight) {
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     for (int turn = 0; turn < 20; ++turn) {
         const glm::dmat4 place =
-            glm::rotate(placed({unit(random) * 20, unit(random) * 20, unit(random) * 20}, 1.0), unit(random) * 3.0,
-                        randomDirectionF64(random));
+            glm::rotate(placed({unit(random) * 20, unit(random) * 20, unit(random) * 20}, 1.0),
+                        unit(random) * 3.0, randomDirectionF64(random));
         const Scene scene = makeScene({makeBox({5.0, 0.0005, 5.0})}, place);
         const RayWorld world = worldOf(scene);
         int leaks = 0;
         for (int i = 0; i < rayCount(5000); ++i) {
             const glm::vec3 p(place * glm::dvec4(unit(random) * 4.9, 0.0005, unit(random) * 4.9, 1.0));
-            const glm::vec3 light(
-                place * glm::dvec4(unit(random) * 4.0, -0.01 - std::abs(unit(random)) * 3.0, unit(random) * 4.0, 1.0));
+            const glm::vec3 light(place * glm::dvec4(unit(random) * 4.0, -0.01 - std::abs(unit(random)) * 3.0,
+                                                     unit(random) * 4.0, 1.0));
             const glm::vec3 ng(glm::dmat3(place) * glm::dvec3(0.0, 1.0, 0.0));
             const glm::vec3 dir = glm::normalize(light - p);
             // A light below the horizon is dark by its normal; here the wall itself must stop it.
