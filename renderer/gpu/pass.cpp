@@ -133,7 +133,7 @@ PassBase::~PassBase() {
     vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
 }
 
-void PassBase::build(std::vector<ShaderCode*> stages) {
+void PassBase::build(const std::vector<ShaderCode*>& stages) {
     assignBindings(stages);
     bindings_.clear();
     constants_.clear();

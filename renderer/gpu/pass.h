@@ -106,7 +106,7 @@ class PassBase {
 
     // Checks the declaration against the stages and makes the layouts; a difference is a contract failure
     // that names the pass and the resource.
-    void build(std::vector<ShaderCode*> stages);
+    void build(const std::vector<ShaderCode*>& stages);
     VkDescriptorSet prepare(Commands& commands, const Bindings& bindings);
     void captureWrites(Commands& commands,
                        const Bindings& bindings) const; // where Commands asks for this pass

@@ -313,7 +313,7 @@ Result<ShaderCode> compileShaderText(const std::string& name, const std::string&
     return finish(name, "\n" + source, {});
 }
 
-void assignBindings(std::vector<ShaderCode*> stages) {
+void assignBindings(const std::vector<ShaderCode*>& stages) {
     std::set<std::string> names;
     for (const ShaderCode* stage : stages) {
         for (const ShaderBinding& binding : stage->bindings)

@@ -52,6 +52,6 @@ Result<ShaderCode> compileShader(const std::string& file, const std::vector<std:
 Result<ShaderCode> compileShaderText(const std::string& name, const std::string& source);
 
 // Gives equal names in all stages one binding number, in the SPIR-V as well.
-void assignBindings(std::vector<ShaderCode*> stages);
+void assignBindings(const std::vector<ShaderCode*>& stages);
 
 } // namespace kilolux::gpu
