@@ -27,9 +27,9 @@ layout(scalar) buffer Counters {
     uint counters[];
 };
 
-// Tries to find a point above the receiver's horizon; at most 2^-8 of a light whose visible half is below it
-// are given up.
-const int kMaxDraws = 8;
+// Tries to find a point above the receiver's horizon. Those that never do count as hidden, which loses 0.9^64 =
+// 0.1 % of a light of which a tenth is above; 8 tries lost 43 % of it, and 0.4 % of one that is half above.
+const int kMaxDraws = 64;
 
 struct Receiver {
     ShadingPoint point;
