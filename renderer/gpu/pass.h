@@ -186,6 +186,7 @@ struct ColorTarget {
 };
 
 struct GraphicsState {
+    std::string vertex;              // shaders/passes/<vertex>.vert
     std::vector<ColorTarget> colors; // in the order of the fragment shader's locations
     VkFormat depth = VK_FORMAT_UNDEFINED;
     bool depthWrite = true; // reversed depth: greater or equal passes
@@ -193,7 +194,7 @@ struct GraphicsState {
 
 class GraphicsPass : public PassBase {
   public:
-    // shaders/passes/<name>.vert and .frag.
+    // shaders/passes/<name>.frag with the state's vertex shader.
     GraphicsPass(PassResources& resources, std::string name, std::vector<PassUse> uses, GraphicsState state);
     ~GraphicsPass() override;
 

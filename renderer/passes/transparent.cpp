@@ -7,8 +7,9 @@ namespace kilolux {
 
 namespace {
 gpu::GraphicsPass makePass(gpu::PassResources& resources, const char* name, gpu::ColorTarget::Blend blend) {
-    return gpu::GraphicsPass(resources, name, joined({{{"Frame"}, {"gDepth"}}, surfaceUses()}),
-                             {.colors = {{"sceneColor", VK_FORMAT_R32G32B32A32_SFLOAT, blend}}});
+    return gpu::GraphicsPass(
+        resources, name, joined({{{"Frame"}, {"gDepth"}}, surfaceUses()}),
+        {.vertex = "draw_instance", .colors = {{"sceneColor", VK_FORMAT_R32G32B32A32_SFLOAT, blend}}});
 }
 } // namespace
 

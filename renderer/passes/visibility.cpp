@@ -7,7 +7,9 @@ using gpu::Access;
 
 RasterVisibilityPass::RasterVisibilityPass(gpu::PassResources& resources)
     : pass_(resources, "raster_visibility", joined({{{"Frame"}}, geometryUses(), GpuRayWorld::alphaUses()}),
-            {.colors = {{"visibility", VK_FORMAT_R32G32_UINT}}, .depth = VK_FORMAT_D32_SFLOAT}) {}
+            {.vertex = "draw_instance",
+             .colors = {{"visibility", VK_FORMAT_R32G32_UINT}},
+             .depth = VK_FORMAT_D32_SFLOAT}) {}
 
 void RasterVisibilityPass::record(FrameContext& frame) {
     const GpuScene& scene = frame.scene;

@@ -1,6 +1,6 @@
 #version 460
-// Draws instances into the visibility buffer: one draw per instance, gl_InstanceIndex is its id, vertices are
-// pulled from the texel buffer that the tracing and shading passes read too.
+// Draws instances: one draw each, gl_InstanceIndex is its id; vertices are pulled from the texel buffer that the
+// tracing and shading passes read too.
 #include "lib/frame.glsl"
 #include "lib/geometry.glsl"
 
