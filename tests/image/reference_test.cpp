@@ -51,17 +51,20 @@ TEST(Reference, BothGBuffersAgree) {
     expectBothAgree(scene, {.settings = {"gbuffer=compute"}});
 }
 
-// Lights that stand in the floor and the wall: their lower parts are under the horizon of what they light.
-TEST(Reference, LightsAtTheHorizonAgree) {
+// Lights beside the floor at its height: half of each is under the horizon of every point of the floor.
+TEST(Reference, LightsHalfBelowTheHorizonAgree) {
     std::vector<LightCase> lights;
-    const auto sunk = [&](std::size_t index, const glm::dvec3& at, const glm::dvec3& along) {
-        lights.push_back(lightCases()[index]);
-        lights.back().worldFromLight = lookingAlong(at, along);
+    const auto beside = [&](std::size_t index, double size, const glm::dvec3& at, const glm::dvec3& along) {
+        LightCase light = lightCases()[index];
+        light.worldFromLight = lookingAlong(at, along);
+        light.def.radiusM *= size;
+        light.def.rangeM = 12.0;
+        lights.push_back(light);
     };
-    sunk(0, {-1.8, 0.1, 1.0}, {1, 0, -0.2});
-    sunk(1, {1.9, 0.05, 1.2}, {-1, 0.1, -0.3});
-    sunk(2, {-0.2, 0.1, 1.5}, {0, 0, -1});
-    sunk(3, {0.2, 1.2, -2.48}, {0, 0, 1});
+    beside(0, 1.0, {-3.4, 0.05, 0.3}, {1, 0, -0.1});
+    beside(1, 1.0, {3.3, -0.1, 1.0}, {-1, 0, -0.3});
+    beside(2, 1.5, {0.3, 0.0, 3.5}, {0, 0, -1});
+    beside(3, 3.0, {-3.3, 0.0, 1.8}, {1, 0, -0.5});
     expectBothAgree(stageScene(lights));
 }
 
