@@ -48,10 +48,6 @@ bool stopsAt(const RayWorld& world, float u, float v) {
     return occluded(world, glm::vec3(u, v, 1.0f), glm::vec3(0.0f, 0.0f, -1.0f), 0.0f, 2.0f);
 }
 
-RayWorld worldOf(const Scene& scene) {
-    return buildWorld(scene, enumerateInstances(scene), {}, glm::dvec3(0.0));
-}
-
 } // namespace
 
 TEST(Instances, AreOnePerVisibleNodeAndPrimitiveInNodeOrder) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 namespace kilolux::test {
@@ -128,6 +129,16 @@ Scene makeScene(std::vector<Primitive> primitives, const glm::dmat4& worldFromLo
     return scene;
 }
 
+glm::dmat4 placed(const glm::dvec3& position, double scale) {
+    glm::dmat4 m = glm::scale(glm::dmat4(1.0), glm::dvec3(scale));
+    m[3] = glm::dvec4(position, 1.0);
+    return m;
+}
+
+RayWorld worldOf(const Scene& scene, const glm::dvec3& anchor) {
+    return buildWorld(scene, enumerateInstances(scene), {}, anchor);
+}
+
 int addNode(Scene& scene, int mesh, const glm::dmat4& worldFromLocal) {
     Node node;
     node.mesh = mesh;
@@ -157,6 +168,13 @@ TestRay randomRay(std::mt19937& random, const glm::vec3& lower, const glm::vec3&
     TestRay ray;
     ray.origin = glm::vec3(from);
     ray.dir = glm::vec3(glm::normalize(to - from));
+    return ray;
+}
+
+TestRay rayTo(const glm::dvec3& origin, const glm::dvec3& target) {
+    TestRay ray;
+    ray.origin = glm::vec3(origin);
+    ray.dir = glm::vec3(glm::normalize(target - glm::dvec3(ray.origin)));
     return ray;
 }
 

@@ -30,7 +30,9 @@ Primitive makeSoup(int triangles, double edgeM, unsigned seed);
 
 // One node per primitive, placed by `worldFromLocal`.
 Scene makeScene(std::vector<Primitive> primitives, const glm::dmat4& worldFromLocal = glm::dmat4(1.0));
-int addNode(Scene& scene, int mesh, const glm::dmat4& worldFromLocal); // returns the node
+glm::dmat4 placed(const glm::dvec3& position, double scale);
+RayWorld worldOf(const Scene& scene, const glm::dvec3& anchor = glm::dvec3(0.0)); // all of it static
+int addNode(Scene& scene, int mesh, const glm::dmat4& worldFromLocal);            // returns the node
 
 // --- Rays -----------------------------------------------------------------------------------------------
 
@@ -44,6 +46,9 @@ glm::vec3 randomDirection(std::mt19937& random);
 glm::dvec3 randomDirectionF64(std::mt19937& random);
 // From a random place in the box (grown by `grow` of its size) towards another one inside it.
 TestRay randomRay(std::mt19937& random, const glm::vec3& lower, const glm::vec3& upper, double grow);
+
+// Aimed at the target as exactly as floats can.
+TestRay rayTo(const glm::dvec3& origin, const glm::dvec3& target);
 
 // --- References -----------------------------------------------------------------------------------------
 
