@@ -25,6 +25,29 @@ float ggxV(float noL, float noV, float alpha);
 float schlickWeight(float loH);
 vec2 ggxTimesCosine(vec3 normal, vec3 viewDir, float noV, vec3 lightDir, float alpha);
 
+Reservoir emptyReservoir(float number);
+void reservoirAdd(Reservoir& r, float sumBefore, uint item, float weight, float factor);
+float ditheredNumber(float number, uint index, uint count);
+float rotatedNumber(float number, uint index, uint count);
+vec2 rotatedPoint(vec2 number, uint index, uint count);
+float numberFromNoise16(uint noise16, uint whiteBits);
+float perceptualWeight(float luminance, float exposure);
+float luminanceFromWeight(float weight);
+float hardDropLoss(float contribution, float weight, float threshold);
+Candidate makeCandidate(uint item, uint list, float weight, uint stride, float threshold, uint dimMode,
+                        float dimNumber);
+uint cellStride(uint count, uint most);
+uint cellOffset(float number, uint stride);
+LightSelection beginSelection(vec3 numbers, uint sampleCount);
+void selectionAdd(LightSelection& s, Candidate c);
+vec2 budgetedSums(float visibleSum, float hiddenSum, float directionalSum, SelectionBudget budget);
+LightChoice selectionSample(LightSelection s, SelectionBudget budget, uint index);
+MaskedPoint areaMaskWarp(vec2 number, uint mask, float hiddenShare);
+vec4 areaMaskShares(uint mask, float hiddenShare);
+uint areaMaskQuarter(vec2 uv);
+float areaMaskPdf(vec2 uv, uint mask, float hiddenShare);
+vec2 areaMaskUnwarp(vec2 uv, uint mask, float hiddenShare);
+
 vec2 ltcNodeFromInputs(float noV, float roughness);
 vec2 ltcInputsFromNode(vec2 node);
 vec2 ltcUv(float noV, float roughness);

@@ -20,7 +20,10 @@ static vec4 ltcLookup1(vec2 uv) {
 }
 
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
+#define KILOLUX_MATH_SELECTION_TYPES_GLSL
 #include "shaders/lights/light.glsl"
+#include "shaders/math/area_mask.glsl"
 #include "shaders/math/hash.glsl"
+#include "shaders/math/selection.glsl"
 
 } // namespace kilolux::f32

@@ -17,7 +17,9 @@ using mat3 = glm::mat3;
 using shared::LightHot;
 
 #include "shaders/lights/light_types.glsl"
-#undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f64.h reads it again
+#include "shaders/math/selection_types.glsl"
+#undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f64.h reads these again
+#undef KILOLUX_MATH_SELECTION_TYPES_GLSL
 
 #include "renderer/lights_cpp/lights_api.inl"
 

@@ -31,9 +31,12 @@ static vec4 ltcLookup1(vec2 uv) {
 }
 
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
+#define KILOLUX_MATH_SELECTION_TYPES_GLSL
 #define float double
 #include "shaders/lights/light.glsl"
+#include "shaders/math/area_mask.glsl"
 #include "shaders/math/hash.glsl"
+#include "shaders/math/selection.glsl"
 #undef float
 
 } // namespace kilolux::f64

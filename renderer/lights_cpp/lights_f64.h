@@ -17,8 +17,10 @@ using mat3 = glm::dmat3;
 
 #define float double
 #include "shaders/lights/light_types.glsl"
+#include "shaders/math/selection_types.glsl"
 #include "shaders/shared/light_hot.inl"
-#undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f32.h reads it again
+#undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f32.h reads these again
+#undef KILOLUX_MATH_SELECTION_TYPES_GLSL
 
 #include "renderer/lights_cpp/lights_api.inl"
 #undef float
