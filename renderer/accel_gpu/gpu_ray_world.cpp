@@ -3,6 +3,8 @@
 
 #include "renderer/accel_gpu/ray_query_world.h"
 
+#include <fmt/format.h>
+
 namespace kilolux {
 
 namespace {
@@ -47,6 +49,26 @@ GpuRayWorld::GpuRayWorld(gpu::Device& device, const RayWorld& world, TraceBackEn
 }
 
 GpuRayWorld::~GpuRayWorld() = default;
+
+std::optional<Error> GpuRayWorld::excess(const gpu::Device& device, const RayWorld& world) {
+    const std::uint64_t limit = device.limits().maxTexelBufferElements;
+    const struct {
+        const char* what;
+        std::uint64_t texels;
+    } buffers[] = {
+        {"BVH nodes", world.nodes.size() * shared::BVH_NODE_TEXELS},
+        {"triangle pairs", world.pairs.size() * shared::BVH_PAIR_TEXELS},
+        {"BVH entries", world.entries.size() * shared::BVH_ENTRY_TEXELS},
+        {"instances", world.instances.size()},
+        {"alpha texels", world.alpha.texels.size()},
+        {"alpha-tested triangles", world.alpha.triangles.size() * shared::ALPHA_TRIANGLE_TEXELS},
+    };
+    for (const auto& buffer : buffers)
+        if (buffer.texels > limit)
+            return Error{fmt::format("the scene's {} take {} texels, and device '{}' allows {} in a buffer",
+                                     buffer.what, buffer.texels, device.name(), limit)};
+    return std::nullopt;
+}
 
 void GpuRayWorld::update(const RayWorld& world) {
     entries_.upload(world.entries);

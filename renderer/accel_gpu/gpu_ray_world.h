@@ -6,6 +6,7 @@
 #include "renderer/gpu/pass.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace kilolux {
@@ -19,6 +20,9 @@ enum class TraceBackEnd {
 
 class GpuRayWorld {
   public:
+    // What of the world is more than the device's texel buffers hold, if anything; ask before constructing.
+    static std::optional<Error> excess(const gpu::Device& device, const RayWorld& world);
+
     GpuRayWorld(gpu::Device& device, const RayWorld& world, TraceBackEnd backEnd = TraceBackEnd::ComputeBvh);
     ~GpuRayWorld();
     GpuRayWorld(const GpuRayWorld&) = delete;

@@ -68,7 +68,7 @@ class GpuRun {
   public:
     GpuRun(gpu::Device& device, gpu::PassResources& resources, const GpuRayWorld& world,
            const std::vector<TestRay>& rays, unsigned chunks)
-        : device_(device), pass_(resources, "trace_bench", uses()),
+        : device_(device), pass_(resources, "trace_bench", uses(), "../tests/bench/trace_bench.comp"),
           world_(world), push_{std::uint32_t(rays.size()), chunks} {
         gpu::BufferDesc desc{"benchRays", rays.size() * 32, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
         desc.texelFormat = VK_FORMAT_R32G32B32A32_SFLOAT;

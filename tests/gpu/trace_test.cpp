@@ -24,18 +24,20 @@ struct TracedRay {
     bool hit() const { return instance != 0xFFFFFFFFu; }
 };
 
+constexpr const char* kShader = "../tests/gpu/trace_rays.comp";
+
 class TraceTest : public GpuTest {
   protected:
     std::vector<TracedRay> runCompute(const RayWorld& world, const std::vector<TestRay>& rays) {
         const GpuRayWorld buffers(device(), world);
-        gpu::ComputePass pass(resources(), "trace_rays", withTestUses(GpuRayWorld::traceUses()));
+        gpu::ComputePass pass(resources(), "trace_rays", withTestUses(GpuRayWorld::traceUses()), kShader);
         return run(pass, buffers.traceBindings(), world.hasAlpha(), rays);
     }
 
     std::vector<TracedRay> runRayQuery(const RayWorld& world, const std::vector<TestRay>& rays) {
         const GpuRayWorld buffers(device(), world, TraceBackEnd::RayQuery);
         gpu::ComputePass pass(resources(), "trace_rays",
-                              withTestUses(GpuRayWorld::traceUses(TraceBackEnd::RayQuery)), {},
+                              withTestUses(GpuRayWorld::traceUses(TraceBackEnd::RayQuery)), kShader,
                               {"KX_RAY_QUERY"});
         return run(pass, buffers.traceBindings(), world.hasAlpha(), rays);
     }
@@ -212,6 +214,34 @@ TEST_F(TraceTest, MovingInstancesInBothBackEnds) {
     if (device().hasRayQuery()) {
         EXPECT_LE(compare(runRayQuery(world, rays), expected), 20);
     }
+}
+
+TEST_F(TraceTest, EmptyWorldsInBothBackEnds) {
+    const std::vector<TestRay> rays = raysThrough({glm::vec3(-5.0f), glm::vec3(5.0f)}, 100, 4);
+    const RayWorld empty = buildWorld(Scene{}, {}, {}, glm::dvec3(0.0));
+    // Nothing but one thing that moves, squashed to nothing.
+    Scene scene = makeScene({makeSphere(10, 10)}, glm::dmat4(glm::dmat3(0.0)));
+    const RayWorld squashed = buildWorld(scene, enumerateInstances(scene), {true}, glm::dvec3(0.0));
+    for (const RayWorld* world : {&empty, &squashed}) {
+        for (const TracedRay& ray : runCompute(*world, rays))
+            ASSERT_FALSE(ray.hit() || ray.occluded());
+        if (!device().hasRayQuery()) continue;
+        for (const TracedRay& ray : runRayQuery(*world, rays))
+            ASSERT_FALSE(ray.hit() || ray.occluded());
+    }
+}
+
+TEST_F(TraceTest, WorldsBeyondTheDevicesLimitsAreRefused) {
+    const Scene scene = clutter(1.0);
+    RayWorld world = buildWorld(scene, enumerateInstances(scene), {}, glm::dvec3(0.0));
+    EXPECT_FALSE(GpuRayWorld::excess(device(), world).has_value());
+    const std::size_t limit = device().limits().maxTexelBufferElements;
+    if (limit > (std::size_t{1} << 28))
+        GTEST_SKIP() << "no world of the test's size is too large for this device";
+    world.alpha.texels.resize(limit + 1);
+    const std::optional<Error> error = GpuRayWorld::excess(device(), world);
+    ASSERT_TRUE(error.has_value());
+    EXPECT_NE(error->message.find("alpha texels"), std::string::npos);
 }
 
 TEST_F(TraceTest, UpdateEqualsAFreshUpload) {
