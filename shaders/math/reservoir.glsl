@@ -47,7 +47,8 @@ KX_INLINE void reservoirAdd(INOUT(Reservoir) r, float sumBefore, uint item, floa
 }
 
 // The number of the index-th of `count` samples of a pixel: one in each of count equal ranges, so uniform
-// over all samples together. As sample i is always in range i, only one decision of a sample may be made so.
+// over all samples together but not for one of them. Two consequences: only one decision of a sample may be
+// made so, and where the samples go to different pixels, which goes where must be shuffled evenly at random.
 KX_INLINE float ditheredNumber(float number, uint index, uint count) {
     return min((float(index) + number) / float(count), KX_BELOW_ONE);
 }

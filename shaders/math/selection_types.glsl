@@ -57,7 +57,8 @@ struct LightSelection {
     Reservoir directional[KX_MAX_SAMPLES];
 };
 
-// One chosen light. Light from it = BRDF x emission x visibility at a point, times contribution.
+// One chosen light, right on average over all of a pixel's samples. Light from it = BRDF x emission x
+// visibility at a point, times contribution.
 struct LightChoice {
     uint item;          // KX_NO_ITEM: nothing to choose from
     uint list;          // LIST_*
