@@ -26,7 +26,8 @@ KX_INLINE uint areaMaskQuarter(vec2 uv) {
     return (uv.x >= 0.5 ? 1u : 0u) + (uv.y >= 0.5 ? 2u : 0u);
 }
 
-// Stretches [0, split) to the lower half and the rest to the upper half.
+// Stretches [0, split) to the lower half and the rest to the upper half. A device's division may round up
+// by a few ulps, out of the half; where it is rounded correctly the ends change nothing.
 KX_INLINE float halvesFromSplit(float number, float split) {
     return number < split ? min(0.5 * number / split, KX_BELOW_HALF)
                           : min(0.5 + 0.5 * (number - split) / (1.0 - split), KX_BELOW_ONE);
