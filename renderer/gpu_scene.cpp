@@ -7,6 +7,7 @@
 #include "renderer/lights_cpp/ltc_table.h"
 #include "shaders/shared/features.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 #include <map>
 
@@ -108,6 +109,9 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(gpu::Device& device, const Sc
     result->uploadGeometry(scene);
     result->uploadMaterials(scene, placeOfImage);
     result->world_ = buildWorld(scene, result->instances_, moving, anchor);
+    if (auto error = GpuRayWorld::excess(device, result->world_)) {
+        return Error{fmt::format("{}: {}", scene.sourcePath.string(), error->message)};
+    }
     result->rayWorld_ = std::make_unique<GpuRayWorld>(device, result->world_, backEnd);
     result->world_.nodes.resize(result->world_.topNodeCapacity);
     result->world_.nodes.shrink_to_fit();
