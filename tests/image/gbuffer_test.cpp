@@ -45,9 +45,12 @@ struct Difference {
     int words = 0;    // pixels of the same triangle with another word in the G-buffer
 };
 
-Difference compareProducers(const Scene& scene, int width, int height) {
-    const Rendered raster = renderScene(scene, smallOptions(width, height, {"gbuffer=raster"}));
-    const Rendered compute = renderScene(scene, smallOptions(width, height, {"gbuffer=compute"}));
+Difference compareProducers(const Scene& scene, RenderOptions options) {
+    const int width = options.width, height = options.height;
+    options.settings.gbuffer = GBufferChoice::Raster;
+    const Rendered raster = renderScene(scene, options);
+    options.settings.gbuffer = GBufferChoice::Compute;
+    const Rendered compute = renderScene(scene, options);
     EXPECT_TRUE(raster.targets.has("rasterDepth"));
     EXPECT_FALSE(compute.targets.has("rasterDepth"));
     Difference result;
@@ -80,8 +83,10 @@ Difference compareProducers(const Scene& scene, int width, int height) {
 
 // Raster snaps corners to 1/256 px, so about 1/256 of the pixels on an edge may turn over: of a picture whose
 // every fifth pixel lies on one, fewer than 1 in 500.
-void expectEqualProducers(const Scene& scene, int width, int height) {
-    const Difference difference = compareProducers(scene, width, height);
+void expectEqualProducers(const Scene& scene, int width, int height, const char* jitter = "jitter=false") {
+    RenderOptions options = smallOptions(width, height, {jitter});
+    options.frames = 3; // the third has an offset of its own
+    const Difference difference = compareProducers(scene, options);
     EXPECT_GT(difference.surfaces, width * height / 2);
     EXPECT_LE(difference.ties, std::max(2, difference.surfaces / 500));
     EXPECT_EQ(difference.words, 0); // one shader writes them from the triangle's number
@@ -89,6 +94,10 @@ void expectEqualProducers(const Scene& scene, int width, int height) {
 
 TEST(GBuffer, ProducersAgreeOnClutter) {
     expectEqualProducers(clutterScene(), 160, 120);
+}
+
+TEST(GBuffer, ProducersAgreeOnJitteredFrames) {
+    expectEqualProducers(clutterScene(), 96, 64, "jitter=true");
 }
 
 TEST(GBuffer, ProducersAgreeOnTheStage) {

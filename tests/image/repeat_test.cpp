@@ -10,8 +10,8 @@
 namespace kilolux::test {
 namespace {
 
-RenderOptions jittered(std::uint32_t seed) {
-    RenderOptions options = smallOptions(45, 30, {"jitter=true"});
+RenderOptions seeded(std::uint32_t seed, const char* jitter) {
+    RenderOptions options = smallOptions(45, 30, {jitter});
     options.frames = 3;
     options.seed = seed;
     return options;
@@ -19,15 +19,19 @@ RenderOptions jittered(std::uint32_t seed) {
 
 TEST(Repeat, SameSeedSameBytes) {
     const Scene scene = stageScene(lightCases());
-    const Rendered a = renderScene(scene, jittered(7)), b = renderScene(scene, jittered(7));
+    const Rendered a = renderScene(scene, seeded(7, "jitter=true")),
+                   b = renderScene(scene, seeded(7, "jitter=true"));
     for (const auto& [name, image] : a.targets.all())
         EXPECT_EQ(image.texels, b.targets.named(name).texels) << name;
     EXPECT_EQ(a.picture.srgb8, b.picture.srgb8);
     EXPECT_EQ(a.statistics.rays, b.statistics.rays);
-    const Rendered other = renderScene(scene, jittered(8));
-    EXPECT_NE(a.targets.named("litDiffuse").texels, other.targets.named("litDiffuse").texels);
+    const Rendered other = renderScene(scene, seeded(8, "jitter=true"));
     EXPECT_NE(a.targets.named("gDepth").texels, other.targets.named("gDepth").texels)
         << "the seed turns the jitter";
+    const Rendered still = renderScene(scene, seeded(7, "jitter=false")),
+                   stillOther = renderScene(scene, seeded(8, "jitter=false"));
+    EXPECT_EQ(still.targets.named("gDepth").texels, stillOther.targets.named("gDepth").texels);
+    EXPECT_NE(still.targets.named("litDiffuse").texels, stillOther.targets.named("litDiffuse").texels);
 }
 
 // Frames differ in their noise, and are the same whatever number of them is asked for.
