@@ -17,7 +17,7 @@ LightComparison compared(const Scene& scene, const LightOptions& options) {
 // A block of 8 x 8 pixels may differ by what the fitted GGX of `split` loses; `true` fits nothing.
 void expectBothAgree(const Scene& scene, LightOptions options = {}) {
     options.method = "true";
-    options.frames = 96; // samples of a light of small solid angle spread wide under a glossy lobe
+    options.frames = 192; // samples of a light of small solid angle spread wide under a glossy lobe
     LightComparison result = compared(scene, options);
     expectEquivalent(result);
     EXPECT_LT(result.worstBlock, 0.005);
