@@ -54,7 +54,8 @@ using ImagesByName = std::map<std::string, FloatImage>;
 
 ImagesByName targetsOf(Renderer& renderer) {
     ImagesByName result;
-    Result<std::vector<NamedImage>> images = renderer.targets(); // kept: a range over a temporary's part dangles
+    Result<std::vector<NamedImage>> images =
+        renderer.targets(); // kept: a range over a temporary's part dangles
     for (NamedImage& image : images.value())
         result.emplace(image.name, std::move(image.image));
     return result;
