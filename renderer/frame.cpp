@@ -4,7 +4,7 @@
 namespace kilolux {
 
 FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
-    : resolveGBuffer(resources), depthPyramid(resources), lightAll(resources, plan.tracer),
+    : resolveGBuffer(resources), depthPyramid(resources), lightGrid(resources), lightAll(resources, plan.tracer),
       composite(resources), accumulate(resources), toneMap(resources) {
     if (plan.producer == GBufferProducer::Raster) {
         rasterVisibility = std::make_unique<RasterVisibilityPass>(resources);
@@ -21,6 +21,7 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
     if (passes.traceVisibility) passes.traceVisibility->record(frame, world);
     passes.resolveGBuffer.record(frame);
     passes.depthPyramid.record(frame);
+    passes.lightGrid.record(frame);
     passes.lightAll.record(frame, world, plan.raysPerLight);
     passes.composite.record(frame);
     if (passes.transparent) passes.transparent->record(frame);

@@ -29,6 +29,7 @@ struct FramePasses {
     std::unique_ptr<TraceVisibilityPass> traceVisibility;
     ResolveGBufferPass resolveGBuffer;
     DepthPyramidPass depthPyramid;
+    LightGridPass lightGrid;
     LightAllPass lightAll;
     CompositePass composite;
     std::unique_ptr<TransparentPass> transparent;

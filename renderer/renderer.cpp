@@ -117,6 +117,9 @@ struct Renderer::Impl {
     std::unique_ptr<GpuScene> gpuScene;
     std::unique_ptr<Targets> targets;
     std::unique_ptr<FramePasses> passes;
+    std::unique_ptr<LightGrid> grid;
+    GridUse gridUse;
+    double sceneExtentM = 0.0; // diagonal of the bounds
     gpu::Buffer frameBuffer, counterBuffer;
     shared::FrameConstants constants{};
     gpu::SpecValues features;
@@ -187,6 +190,10 @@ std::optional<Error> Renderer::Impl::prepare() {
                                   plan.producer == GBufferProducer::Raster, plan.view != shared::VIEW_FINAL);
     if (options.poisonTargets) poisonTargets();
     passes = std::make_unique<FramePasses>(resources, plan);
+    const Bounds bounds = worldBounds(scene);
+    sceneExtentM = std::max(glm::length(bounds.max - bounds.min), 1e-3);
+    grid = std::make_unique<LightGrid>(device, std::uint32_t(options.width), std::uint32_t(options.height),
+                                       gpuScene->lightCount());
     frameBuffer =
         gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                              gpu::MemoryUse::HostWrite, "other"});
@@ -219,18 +226,21 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     constants.lightCount = gpuScene->lightCount();
     constants.exposure = float(exposureFromEv100(exposureEv100));
     constants.rasterized = plan.producer == GBufferProducer::Raster;
+    grid->describe(constants, sceneExtentM);
+    constants.grid.enabled &= options.settings.lightGrid;
     frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
 
-    const Bounds bounds = worldBounds(scene);
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
-    FrameContext context{commands, *gpuScene, *targets, frameBuffer, constants, counterBuffer, features};
-    recordFrame(context, *passes, plan, world, index, float(0.25 * glm::length(bounds.max - bounds.min)));
+    FrameContext context{commands,  *gpuScene,     *targets, frameBuffer,
+                         constants, counterBuffer, *grid,    features};
+    recordFrame(context, *passes, plan, world, index, float(0.25 * sceneExtentM));
     commands.submitAndWait();
     const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
     statistics.rays += counts[shared::COUNTER_RAYS];
     lightsInRange += counts[shared::COUNTER_LIGHTS_IN_RANGE];
     surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
+    if (constants.grid.enabled) gridUse = grid->finishFrame();
 }
 
 // CPU drivers compile at the first dispatch. A frame of one tile makes them do it apart from the work, so
@@ -287,12 +297,14 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.lightsInRangeMean = surfacePixels ? double(lightsInRange) / double(surfacePixels) : 0.0;
     statistics.triangles = gpuScene->triangles();
     statistics.exposureEv100 = exposureEv100;
+    statistics.gridIndices = gridUse.indices;
+    statistics.gridTests = gridUse.tests;
     statistics.rangesDerived = gpuScene->derivedRanges();
     const BvhStats& bvh = gpuScene->bvhStats();
     statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;
     statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
     describeFeatures(features, statistics);
-    describePasses(times, {"light_all"}, statistics);
+    describePasses(times, {"cull_coarse", "cull_fine", "light_all"}, statistics);
     describeMemory(device.memory(), statistics);
     return picture;
 }

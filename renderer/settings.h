@@ -34,6 +34,7 @@ struct Settings {
     AutoNumber exposureEv100;
     double raysPerPixel = 1.0;
     int raysPerLight = 1;
+    bool lightGrid = true;
     bool jitter = true;
     PixelFilter pixelFilter = PixelFilter::BlackmanHarris;
     ToneMap toneMap = ToneMap::Neutral;

@@ -47,6 +47,8 @@ struct FrameStatistics {
     double startupMs = 0.0; // process start to the first picture
     double exposureEv100 = 0.0;
     int rangesDerived = 0;            // lights without a range of their own
+    std::uint32_t gridIndices = 0;    // light indices in the lists of the last frame's light grid
+    std::uint32_t gridTests = 0;      // light-cell tests that made them
     double bvhBuildMs = 0.0;          // flattening, pairing, building
     double bvhBytesPerTriangle = 0.0; // nodes and triangles together
     std::vector<std::string> notes;   // what the renderer decided for the user, one line each

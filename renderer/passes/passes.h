@@ -4,6 +4,7 @@
 
 #include "renderer/gpu/pass.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/light_grid.h"
 #include "renderer/targets.h"
 #include "shaders/shared/frame.h"
 
@@ -17,6 +18,7 @@ struct FrameContext {
     const gpu::Buffer& frameBuffer;          // the uniform block `Frame`
     const shared::FrameConstants& constants; // what it holds
     const gpu::Buffer& counters;
+    const LightGrid& grid;
     gpu::SpecValues features;
 
     // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
@@ -57,6 +59,16 @@ class DepthPyramidPass {
 
   private:
     gpu::ComputePass pass_;
+};
+
+class LightGridPass {
+  public:
+    explicit LightGridPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass coarse_;
+    gpu::ComputePass fine_;
 };
 
 class LightAllPass {

@@ -7,6 +7,7 @@
 #include "lib/dispatch.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/light_access.glsl"
+#include "lib/light_grid.glsl"
 #include "lib/trace.glsl"
 #include "math/color.glsl"
 #include "math/hash.glsl"
@@ -23,6 +24,12 @@ uniform usampler2D gMaterial;
 layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
 layout(r32ui) writeonly uniform uimage2D lightCountsOut;
+layout(scalar) readonly buffer GridCells {
+    GridCell gridCells[];
+};
+layout(scalar) readonly buffer GridIndices {
+    uint gridIndices[];
+};
 layout(scalar) buffer Counters {
     uint counters[];
 };
@@ -69,7 +76,12 @@ void main() {
         LtcLobe lobe = makeLtcLobe(receiver.point);
         vec3 f0 = specularF0(surface);
         uint seed = pixelSeed(pixel, frame.frame, frame.seed);
-        for (uint slot = 0u; slot < frame.lightCount; ++slot) {
+        // The grid's lists are sorted by slot, so that sums come out the same without a grid.
+        bool gridded = frame.grid.enabled != 0u;
+        GridCell cell = GridCell(0u, frame.lightCount, 0u);
+        if (gridded) cell = gridCells[gridCellOfPixel(pixel, depthM)];
+        for (uint i = 0u; i < cell.count; ++i) {
+            uint slot = gridded ? gridIndices[cell.first + i] : i;
             LightHot light = loadLightHot(slot);
             if (!lightReaches(light, positionWs)) continue;
             ++inRange;

@@ -2,6 +2,7 @@
 #ifndef KILOLUX_SHARED_FRAME_H
 #define KILOLUX_SHARED_FRAME_H
 #include "base.h"
+#include "light_grid.h"
 
 KX_SHARED_BEGIN
 
@@ -27,6 +28,7 @@ struct FrameConstants {
     float pixelAngleRad; // 2 tan(fovY / 2) / height; orthographic: 0
     float zNearM;
     uint rasterized; // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
+    GridConstants grid;
 };
 
 KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface

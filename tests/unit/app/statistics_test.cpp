@@ -31,6 +31,8 @@ TEST(Statistics, JsonHoldsEveryField) {
                                      .startupMs = 22.0,
                                      .exposureEv100 = 5.5,
                                      .rangesDerived = 23,
+                                     .gridIndices = 25,
+                                     .gridTests = 26,
                                      .bvhBuildMs = 24.5,
                                      .bvhBytesPerTriangle = 41.0,
                                      .notes = {"n"}};
@@ -53,6 +55,8 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["rangesDerived"], 23);
     EXPECT_EQ(json["bvh"]["buildMs"], 24.5);
     EXPECT_EQ(json["bvh"]["bytesPerTriangle"], 41.0);
+    EXPECT_EQ(json["lightGrid"]["indices"], 25);
+    EXPECT_EQ(json["lightGrid"]["tests"], 26);
     EXPECT_EQ(json["notes"], nlohmann::ordered_json({"n"}));
     EXPECT_EQ(json["lightsInRangeMean"], 1.5);
     EXPECT_EQ(json["triangles"], 15);
@@ -69,7 +73,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["gpuMemoryMiB"]["total"], 38.0);
     EXPECT_EQ(json["firstDispatchMs"]["z_first"], 21.0);
     EXPECT_EQ(json["startupMs"], 22.0);
-    EXPECT_EQ(json.size(), 25u) << "a field was added or lost: say so in the README";
+    EXPECT_EQ(json.size(), 26u) << "a field was added or lost: say so in the README";
 }
 
 } // namespace

@@ -1,0 +1,39 @@
+#version 460
+// Lights of each coarse cell of the grid: a group of threads per cell walks all lights once.
+#include "shared/features.h"
+#include "lib/light_cull.glsl"
+
+layout(local_size_x = 64) in;
+layout(scalar) writeonly buffer CoarseCells {
+    GridCell coarseCells[];
+};
+layout(scalar) writeonly buffer GridIndices {
+    uint gridIndices[];
+};
+
+void main() {
+    uint thread = gl_LocalInvocationIndex;
+    uvec3 cell = gl_WorkGroupID;
+    uvec3 first = cell * GRID_COARSE, end = min(first + GRID_COARSE, frame.grid.fineSize);
+    CellBounds bounds = cellBounds(first.xy * GRID_TILE_PX, min(end.xy * GRID_TILE_PX, frame.size),
+                                   gridSliceDepth(first.z), gridSliceDepth(end.z));
+    clearList(thread);
+    for (uint slot = thread; slot < frame.lightCount; slot += GRID_GROUP) {
+        LightHot light = loadLightHot(slot);
+        if (lightMayReach(light, bounds)) markLight(slot, lightType(light));
+    }
+    uint total;
+    uint at = prefixOfThread(thread, total);
+    uint firstIndex = takeRoom(thread, total);
+    // The index list is at least as long as all coarse lists can be.
+    for (uint i = 0u; i < kWordsPerThread; ++i) {
+        uint word = thread * kWordsPerThread + i;
+        for (uint bits = sharedMask[word]; bits != 0u; bits &= bits - 1u) {
+            gridIndices[firstIndex + at++] = word * 32u + uint(findLSB(bits));
+        }
+    }
+    if (thread == 0u) {
+        coarseCells[gridCoarseIndex(cell)] = GridCell(firstIndex, total, sharedTypes);
+        atomicAdd(gridCounters[GRID_COUNTER_TESTS], frame.lightCount);
+    }
+}
