@@ -297,11 +297,12 @@ gpu::Bindings GpuScene::surfaceBindings() const {
 }
 
 gpu::Bindings GpuScene::lightBindings() const {
-    return {{"LightsHot", lightsHot_},
-            {"lightsHotTexels", lightsHot_},
-            {"LightsCold", lightsCold_},
-            {"ltcParameters", ltcParameters_, gpu::SamplerKind::LinearClamp},
-            {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp}};
+    gpu::Bindings bindings{{"lightsHotTexels", lightsHot_},
+                           {"LightsCold", lightsCold_},
+                           {"ltcParameters", ltcParameters_, gpu::SamplerKind::LinearClamp},
+                           {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp}};
+    if (features_.at(CHOICE_LIGHTS_IN_UNIFORM)) bindings.emplace_back("LightsHot", lightsHot_);
+    return bindings;
 }
 
 } // namespace kilolux

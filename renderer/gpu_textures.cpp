@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 #include <thread>
 
 namespace kilolux {
@@ -23,21 +22,28 @@ std::uint32_t classFor(const Image& image) {
     return TEXTURE_CLASSES - 1;
 }
 
-std::set<int> usedImages(const Scene& scene, std::vector<bool>& srgb, std::vector<bool>& nearest) {
-    std::set<int> used;
-    srgb.assign(scene.images.size(), false);
-    nearest.assign(scene.images.size(), false);
+// How an image is read, over all materials.
+struct ImageUse {
+    bool used = false;
+    bool srgb = false;    // holds colour
+    bool nearest = false; // read without filtering
+    bool wraps = false;   // repeats in some direction
+};
+
+std::vector<ImageUse> imageUses(const Scene& scene) {
+    std::vector<ImageUse> uses(scene.images.size());
     for (const Material& material : scene.materials) {
         for (const TextureRef* ref :
              {&material.baseColor, &material.metallicRoughness, &material.normal, &material.emissive}) {
             if (ref->image < 0) continue;
-            used.insert(ref->image);
-            const bool color = ref == &material.baseColor || ref == &material.emissive;
-            if (color) srgb[std::size_t(ref->image)] = true;
-            if (ref->nearestFilter) nearest[std::size_t(ref->image)] = true;
+            ImageUse& use = uses[std::size_t(ref->image)];
+            use.used = true;
+            use.srgb |= ref == &material.baseColor || ref == &material.emissive;
+            use.nearest |= ref->nearestFilter;
+            use.wraps |= ref->wrapS == WrapMode::Repeat || ref->wrapT == WrapMode::Repeat;
         }
     }
-    return used;
+    return uses;
 }
 
 // sRGB decoding of bytes, so that averages are of light.
@@ -77,7 +83,11 @@ glm::vec4 texelAt(const Image& image, int x, int y, bool srgb) {
 
 // Resized to size x size: exact copies where the size fits, a bilinear tent (wider when shrinking) elsewhere,
 // or the nearest texel for images that are looked up without filtering.
-Pixels resize(const Image& image, int size, bool srgb, bool nearest) {
+int foldTexel(int texel, int size, bool wraps) {
+    return wraps ? ((texel % size) + size) % size : std::clamp(texel, 0, size - 1);
+}
+
+Pixels resize(const Image& image, int size, const ImageUse& use) {
     Pixels result{size, std::vector<glm::vec4>(std::size_t(size) * std::size_t(size))};
     const double scaleX = double(image.width) / size, scaleY = double(image.height) / size;
     const double radiusX = std::max(1.0, scaleX), radiusY = std::max(1.0, scaleY);
@@ -85,9 +95,9 @@ Pixels resize(const Image& image, int size, bool srgb, bool nearest) {
         for (int x = 0; x < size; ++x) {
             glm::vec4& out = result.texels[std::size_t(y) * std::size_t(size) + std::size_t(x)];
             const double cx = (x + 0.5) * scaleX - 0.5, cy = (y + 0.5) * scaleY - 0.5;
-            if (nearest || (image.width == size && image.height == size)) {
+            if (use.nearest || (image.width == size && image.height == size)) {
                 out = texelAt(image, std::clamp(int(std::lround(cx)), 0, image.width - 1),
-                              std::clamp(int(std::lround(cy)), 0, image.height - 1), srgb);
+                              std::clamp(int(std::lround(cy)), 0, image.height - 1), use.srgb);
                 continue;
             }
             glm::dvec4 sum(0.0);
@@ -96,10 +106,8 @@ Pixels resize(const Image& image, int size, bool srgb, bool nearest) {
                 for (int sx = int(std::ceil(cx - radiusX)); sx <= int(std::floor(cx + radiusX)); ++sx) {
                     const double w = std::max(0.0, 1.0 - std::abs(sx - cx) / radiusX) *
                                      std::max(0.0, 1.0 - std::abs(sy - cy) / radiusY);
-                    // Repeating images wrap; at borders of others the difference is below a texel.
-                    const int wx = ((sx % image.width) + image.width) % image.width;
-                    const int wy = ((sy % image.height) + image.height) % image.height;
-                    sum += w * glm::dvec4(texelAt(image, wx, wy, srgb));
+                    sum += w * glm::dvec4(texelAt(image, foldTexel(sx, image.width, use.wraps),
+                                                  foldTexel(sy, image.height, use.wraps), use.srgb));
                     weights += w;
                 }
             }
@@ -133,11 +141,11 @@ std::vector<std::uint8_t> toBytes(const Pixels& pixels, bool srgb) {
     return bytes;
 }
 
-std::vector<std::vector<std::uint8_t>> makeMips(const Image& image, int size, bool srgb, bool nearest) {
+std::vector<std::vector<std::uint8_t>> makeMips(const Image& image, int size, const ImageUse& use) {
     std::vector<std::vector<std::uint8_t>> mips;
-    Pixels level = resize(image, size, srgb, nearest);
+    Pixels level = resize(image, size, use);
     for (;;) {
-        mips.push_back(toBytes(level, srgb));
+        mips.push_back(toBytes(level, use.srgb));
         if (level.size == 1) return mips;
         level = halve(level);
     }
@@ -146,15 +154,16 @@ std::vector<std::vector<std::uint8_t>> makeMips(const Image& image, int size, bo
 } // namespace
 
 Result<TextureArrays> makeTextureArrays(gpu::Device& device, const Scene& scene) {
-    std::vector<bool> srgb, nearest;
-    const std::set<int> used = usedImages(scene, srgb, nearest);
+    const std::vector<ImageUse> uses = imageUses(scene);
     TextureArrays arrays;
     arrays.placeOfImage.assign(scene.images.size(), TEXTURE_NONE);
     std::array<std::uint32_t, TEXTURE_CLASSES> layers{};
-    for (const int index : used) {
-        const std::uint32_t textureClass = classFor(*scene.images[std::size_t(index)]);
-        arrays.placeOfImage[std::size_t(index)] =
-            textureClass << TEXTURE_CLASS_SHIFT | layers[textureClass]++;
+    std::vector<std::size_t> order;
+    for (std::size_t index = 0; index < uses.size(); ++index) {
+        if (!uses[index].used) continue;
+        order.push_back(index);
+        const std::uint32_t textureClass = classFor(*scene.images[index]);
+        arrays.placeOfImage[index] = textureClass << TEXTURE_CLASS_SHIFT | layers[textureClass]++;
     }
     for (std::uint32_t i = 0; i < TEXTURE_CLASSES; ++i) {
         if (layers[i] == 0) continue;
@@ -176,7 +185,6 @@ Result<TextureArrays> makeTextureArrays(gpu::Device& device, const Scene& scene)
                                                .cause = "textures"});
     }
     // Resizing is the slow part: two at a time, uploads in between on this thread.
-    const std::vector<int> order(used.begin(), used.end());
     const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
     for (std::size_t first = 0; first < order.size(); first += threads) {
         const std::size_t count = std::min(threads, order.size() - first);
@@ -184,14 +192,14 @@ Result<TextureArrays> makeTextureArrays(gpu::Device& device, const Scene& scene)
         std::vector<std::jthread> workers;
         for (std::size_t i = 0; i < count; ++i) {
             workers.emplace_back([&, i] {
-                const auto index = std::size_t(order[first + i]);
+                const std::size_t index = order[first + i];
                 const Image& image = *scene.images[index];
-                mips[i] = makeMips(image, kSizes[classFor(image)], srgb[index], nearest[index]);
+                mips[i] = makeMips(image, kSizes[classFor(image)], uses[index]);
             });
         }
         workers.clear();
         for (std::size_t i = 0; i < count; ++i) {
-            const std::uint32_t place = arrays.placeOfImage[std::size_t(order[first + i])];
+            const std::uint32_t place = arrays.placeOfImage[order[first + i]];
             gpu::Image& array = arrays.images[place >> TEXTURE_CLASS_SHIFT];
             for (std::uint32_t mip = 0; mip < mips[i].size(); ++mip) {
                 array.upload(std::as_bytes(std::span(mips[i][mip])), mip, place & 0xffffu);

@@ -194,6 +194,7 @@ std::optional<Error> Renderer::Impl::prepare() {
     sceneExtentM = std::max(glm::length(bounds.max - bounds.min), 1e-3);
     grid = std::make_unique<LightGrid>(device, std::uint32_t(options.width), std::uint32_t(options.height),
                                        gpuScene->lightCount());
+    if (options.gridRoom) grid->limitFineIndices(*options.gridRoom);
     frameBuffer =
         gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                              gpu::MemoryUse::HostWrite, "other"});
@@ -299,6 +300,7 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.exposureEv100 = exposureEv100;
     statistics.gridIndices = gridUse.indices;
     statistics.gridTests = gridUse.tests;
+    statistics.gridCoarseCells = gridUse.coarseCells;
     statistics.rangesDerived = gpuScene->derivedRanges();
     const BvhStats& bvh = gpuScene->bvhStats();
     statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;

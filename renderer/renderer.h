@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,9 +35,10 @@ struct RenderOptions {
     std::string view;   // empty: the first of Renderer::views()
     std::string camera; // name of one of the scene's cameras; empty: the first one, or a derived one
     Settings settings;
-    bool keepTargets = false;   // keep what Renderer::targets() reads back
-    bool allFeatures = false;   // the pipelines that can draw any scene; the same picture, slower
-    bool poisonTargets = false; // targets start as NaN, so that a pixel which no pass writes shows
+    bool keepTargets = false;              // keep what Renderer::targets() reads back
+    bool allFeatures = false;              // the pipelines that can draw any scene; the same picture, slower
+    std::optional<std::uint32_t> gridRoom; // indices of the light grid's fine lists at the start, for tests
+    bool poisonTargets = false;            // targets start as NaN, so that a pixel which no pass writes shows
 };
 
 struct Picture {

@@ -44,7 +44,8 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["exposureEv100"] = s.exposureEv100;
     json["rangesDerived"] = s.rangesDerived;
     json["bvh"] = {{"buildMs", s.bvhBuildMs}, {"bytesPerTriangle", s.bvhBytesPerTriangle}};
-    json["lightGrid"] = {{"indices", s.gridIndices}, {"tests", s.gridTests}};
+    json["lightGrid"] = {
+        {"indices", s.gridIndices}, {"tests", s.gridTests}, {"coarseCells", s.gridCoarseCells}};
     json["notes"] = s.notes;
     return json;
 }

@@ -46,12 +46,13 @@ struct FrameStatistics {
         firstDispatchMs;    // pass and its first dispatch, compiler included
     double startupMs = 0.0; // process start to the first picture
     double exposureEv100 = 0.0;
-    int rangesDerived = 0;            // lights without a range of their own
-    std::uint32_t gridIndices = 0;    // light indices in the lists of the last frame's light grid
-    std::uint32_t gridTests = 0;      // light-cell tests that made them
-    double bvhBuildMs = 0.0;          // flattening, pairing, building
-    double bvhBytesPerTriangle = 0.0; // nodes and triangles together
-    std::vector<std::string> notes;   // what the renderer decided for the user, one line each
+    int rangesDerived = 0;             // lights without a range of their own
+    std::uint32_t gridIndices = 0;     // light indices in the lists of the last frame's light grid
+    std::uint32_t gridTests = 0;       // light-cell tests that made them
+    std::uint32_t gridCoarseCells = 0; // cells that took their coarse cell's list for want of room
+    double bvhBuildMs = 0.0;           // flattening, pairing, building
+    double bvhBytesPerTriangle = 0.0;  // nodes and triangles together
+    std::vector<std::string> notes;    // what the renderer decided for the user, one line each
 };
 
 // The object that --stats writes: field names as above, `passes` by name, `gpuMemoryMiB` by cause and

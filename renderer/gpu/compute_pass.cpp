@@ -62,8 +62,10 @@ VkPipeline ComputePass::pipeline(const SpecValues& features) {
     const auto& exact = pipelines_.at(masked(features));
     const bool ready = exact.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     if (ready || wait_ == PipelineWait::Exact) return exact.get();
-    warm({});
-    return pipelines_.at({}).get();
+    SpecValues standIn = masked(features);
+    standIn.erase(standIn.begin(), standIn.lower_bound(kFirstChoiceId));
+    warm(standIn);
+    return pipelines_.at(standIn).get();
 }
 
 void ComputePass::recordBytes(Commands& commands, const SpecValues& features, const Bindings& bindings,

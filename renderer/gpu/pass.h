@@ -17,8 +17,10 @@
 
 namespace kilolux::gpu {
 
-// A value per specialization constant id (FEATURE_* of shaders/shared/features.h and setting constants).
+// A value per specialization constant id: features below kFirstChoiceId (on by default, off changes no
+// picture), choices from there on (they do).
 using SpecValues = std::map<std::uint32_t, std::uint32_t>;
+constexpr std::uint32_t kFirstChoiceId = 32;
 
 enum class Access { Read, Write, ReadWrite };
 enum class Presence {

@@ -32,7 +32,12 @@ std::vector<PassUse> traceUses(TraceBackEnd tracer) {
 }
 
 std::vector<PassUse> lightUses() {
-    return {{"LightsHot"}, {"lightsHotTexels"}, {"LightsCold"}, {"ltcParameters"}, {"ltcScales"}};
+    // The uniform block holds a thousand lights; with more, a dummy stands in and the texels serve.
+    return {{"LightsHot", Access::Read, Presence::Optional},
+            {"lightsHotTexels"},
+            {"LightsCold"},
+            {"ltcParameters"},
+            {"ltcScales"}};
 }
 
 std::vector<PassUse> joined(std::initializer_list<std::vector<PassUse>> lists) {

@@ -51,11 +51,16 @@ LightCold loadLightCold(uint slot) {
     return lightsCold[slot];
 }
 
-// Whether the light is on and the point within its range.
+// Whether the light is on and may shine on the point: within its range, and in its cone or on its side. Culling by
+// the light grid is conservative, this is not: lights in range are counted the same with and without it.
 bool lightReaches(LightHot light, vec3 positionWs) {
-    vec3 to = positionWs - light.positionWs;
-    bool within = dot(to, to) * light.invRange * light.invRange < 1.0;
-    return lightIsOn(light) && (within || lightType(light) == LIGHT_DIRECTIONAL);
+    LightBounds bounds = lightBounds(light);
+    vec3 to = positionWs - bounds.centerWs;
+    float distance2 = dot(to, to);
+    if (lightType(light) == LIGHT_DIRECTIONAL) return lightIsOn(light);
+    bool within = distance2 * light.invRange * light.invRange < 1.0;
+    bool inCone = dot(to, bounds.axisWs) >= (bounds.cosHalfAngle - 1.0e-6) * sqrt(distance2);
+    return lightIsOn(light) && within && inCone;
 }
 
 #endif

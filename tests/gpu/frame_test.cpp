@@ -102,8 +102,9 @@ TEST_F(FramePass, PyramidBoundsEveryPixelBelow) {
         shared::FrameConstants constants{};
         constants.size = size;
         const gpu::Buffer unused;
+        const LightGrid grid(device(), size.x, size.y, 1);
         gpu::Commands commands(device());
-        FrameContext frame{commands, *gpuScene.value(), targets, unused, constants, unused, {}};
+        FrameContext frame{commands, *gpuScene.value(), targets, unused, constants, unused, grid, {}};
         pass.record(frame);
         commands.submitAndWait();
         glm::uvec2 level = glm::max(size / 2u, glm::uvec2(1));
