@@ -34,6 +34,10 @@ class FieldWords {
 #define PUT_REF(field) put(ref.field);
         FIELDS_GpuTextureRef(PUT_REF)
     }
+    void put(const GridConstants& grid) {
+#define PUT_GRID(field) put(grid.field);
+        FIELDS_GridConstants(PUT_GRID)
+    }
     std::vector<std::uint32_t> words;
 };
 
@@ -92,6 +96,8 @@ class Structs : public GpuTest {
 STRUCT_TEST(LightHot)
 STRUCT_TEST(LightCold)
 STRUCT_TEST(FrameConstants)
+STRUCT_TEST(GridConstants)
+STRUCT_TEST(GridCell)
 STRUCT_TEST(GpuInstance)
 STRUCT_TEST(GpuTextureRef)
 STRUCT_TEST(GpuMaterial)

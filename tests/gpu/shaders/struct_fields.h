@@ -1,27 +1,38 @@
-// The fields of every struct that C++ and shaders share, in order: read by structs.comp and by structs_test.cpp,
-// so that both walk a struct by the same names. A field that is missing here shows as a wrong count of words.
+// The fields of every struct that C++ and shaders share, in order: read by structs.comp and by
+// structs_test.cpp, so that both walk a struct by the same names. A field that is missing here shows as a
+// wrong count of words.
 #ifndef KILOLUX_TEST_STRUCT_FIELDS_H
 #define KILOLUX_TEST_STRUCT_FIELDS_H
 
+// clang-format does not settle on one form of these.
+// clang-format off
 #define FIELDS_LightHot(F) \
     F(positionWs) F(invRange) F(dirWs) F(tangentOct) F(intensity) F(typeFlags) F(sizeM) F(shaping)
 #define FIELDS_LightCold(F) F(rayEndBiasM) F(epoch) F(node) F(fluxLm)
 #define FIELDS_FrameConstants(F) \
-    F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) F(size) F(tiles) \
-    F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) F(rasterized)
+    F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
+    F(size) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
+    F(rasterized) F(grid)
+#define FIELDS_GridConstants(F) \
+    F(fineSize) F(coarseSize) F(firstDepthM) F(slicesPerOctave) F(lastDepthM) F(capacity) F(enabled)
+#define FIELDS_GridCell(F) F(first) F(count) F(typeMask)
 #define FIELDS_GpuInstance(F) \
-    F(row0) F(row1) F(row2) F(firstVertex) F(firstIndex) F(firstUv1) F(material) F(flags) F(triangleCount)
+    F(row0) F(row1) F(row2) F(firstVertex) F(firstIndex) F(firstUv1) F(material) F(flags) \
+    F(triangleCount)
 #define FIELDS_GpuTextureRef(F) F(place) F(flags) F(uvRow0) F(uvRow1)
 #define FIELDS_GpuMaterial(F) \
-    F(baseColor) F(emissive) F(metallic) F(roughness) F(normalScale) F(opacity) F(flags) F(baseColorTexture) \
-    F(metallicRoughnessTexture) F(normalTexture) F(emissiveTexture)
+    F(baseColor) F(emissive) F(metallic) F(roughness) F(normalScale) F(opacity) F(flags) \
+    F(baseColorTexture) F(metallicRoughnessTexture) F(normalTexture) F(emissiveTexture)
 #define FIELDS_BvhNode(F) F(box0) F(ref0) F(box1) F(ref1)
 #define FIELDS_BvhPair(F) F(a) F(b) F(c) F(d)
 #define FIELDS_BvhEntry(F) \
-    F(linear0) F(linear1) F(linear2) F(pivotWs) F(pivotLs) F(gridMin) F(gridStep) F(rootRef) F(firstTriangle) F(unused)
+    F(linear0) F(linear1) F(linear2) F(pivotWs) F(pivotLs) F(gridMin) F(gridStep) F(rootRef) \
+    F(firstTriangle) F(unused)
 #define FIELDS_TraceInstance(F) F(firstTriangle) F(alphaRecord)
 #define FIELDS_AlphaRecord(F) \
-    F(firstTexel) F(width) F(height) F(flags) F(uvRow0) F(factor) F(uvRow1) F(cutoff) F(firstTriangle) F(unused)
+    F(firstTexel) F(width) F(height) F(flags) F(uvRow0) F(factor) F(uvRow1) F(cutoff) F(firstTriangle) \
+    F(unused)
 #define FIELDS_AlphaTriangle(F) F(uv0) F(uv1) F(uv2) F(alpha8x3) F(unused)
+// clang-format on
 
 #endif

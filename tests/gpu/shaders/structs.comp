@@ -32,6 +32,8 @@ void put(uvec3 v) { put(v.xy); put(v.z); }
 void put(mat4 m) { put(m[0]); put(m[1]); put(m[2]); put(m[3]); }
 #define PUT_REF(field) put(ref.field);
 void put(GpuTextureRef ref) { FIELDS_GpuTextureRef(PUT_REF) }
+#define PUT_GRID(field) put(grid.field);
+void put(GridConstants grid) { FIELDS_GridConstants(PUT_GRID) }
 
 #define PUT(field) put(source[1].field);
 
