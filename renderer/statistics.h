@@ -31,7 +31,7 @@ struct FrameStatistics {
     int frames = 0;
     std::uint32_t seed = 0;
     std::size_t lights = 0;
-    double lightsInRangeMean = 0.0; // per pixel that shows a surface
+    double lightsInRangeMean = 0.0; // within range, cone and side; per pixel that shows a surface
     std::size_t triangles = 0;      // instances counted each
     std::vector<std::string> featuresOn;
     std::vector<std::string> featuresOff; // "Name: why"

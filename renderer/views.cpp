@@ -22,7 +22,7 @@ constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
     {"depth-range", "depth pyramid: farthest minus nearest in 8 x 8 pixels"},
     {"instance", "a colour per instance"},
     {"primitive", "a colour per triangle"},
-    {"lights-in-range", "lights in range of each pixel, 0 to 64"},
+    {"lights-in-range", "lights that may shine on each pixel: within range, cone and side, 0 to 64"},
     {"lights-seen", "lights of which a ray was not blocked, 0 to 64"},
     {"seen-share", "share of the lights in range that is seen, 0 to 1"},
 }};
