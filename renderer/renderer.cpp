@@ -126,7 +126,7 @@ struct Renderer::Impl {
     gpu::Bindings world;
     gpu::PassTimes times;
     FrameStatistics statistics;
-    std::uint64_t lightsInRange = 0, surfacePixels = 0;
+    std::uint64_t lightsInRange = 0, lightsTested = 0, surfacePixels = 0;
 };
 
 std::optional<Error> Renderer::Impl::prepare() {
@@ -240,6 +240,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
     statistics.rays += counts[shared::COUNTER_RAYS];
     lightsInRange += counts[shared::COUNTER_LIGHTS_IN_RANGE];
+    lightsTested += counts[shared::COUNTER_LIGHTS_TESTED];
     surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
     if (constants.grid.enabled) gridUse = grid->finishFrame();
 }
@@ -253,7 +254,7 @@ void Renderer::Impl::compilePipelines() {
         statistics.firstDispatchMs.emplace_back(entry.name,
                                                 *std::max_element(entry.ms.begin(), entry.ms.end()));
     }
-    statistics.rays = lightsInRange = surfacePixels = 0;
+    statistics.rays = lightsInRange = lightsTested = surfacePixels = 0;
 }
 
 Picture Renderer::Impl::readPicture() const {
@@ -296,6 +297,7 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.seed = options.seed;
     statistics.lights = gpuScene->lightCount();
     statistics.lightsInRangeMean = surfacePixels ? double(lightsInRange) / double(surfacePixels) : 0.0;
+    statistics.lightsTestedMean = surfacePixels ? double(lightsTested) / double(surfacePixels) : 0.0;
     statistics.triangles = gpuScene->triangles();
     statistics.exposureEv100 = exposureEv100;
     statistics.gridIndices = gridUse.indices;

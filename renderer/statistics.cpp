@@ -31,6 +31,7 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["settingsHash"] = fmt::format("{:016x}", settingsHash(settings));
     json["lights"] = s.lights;
     json["lightsInRangeMean"] = s.lightsInRangeMean;
+    json["lightsTestedMean"] = s.lightsTestedMean;
     json["triangles"] = s.triangles;
     json["features"] = {{"on", s.featuresOn}, {"off", s.featuresOff}};
     json["passes"] = std::move(passes);

@@ -32,6 +32,7 @@ struct FrameStatistics {
     std::uint32_t seed = 0;
     std::size_t lights = 0;
     double lightsInRangeMean = 0.0; // within range, cone and side; per pixel that shows a surface
+    double lightsTestedMean = 0.0;  // length of the list that a pixel walks: over-inclusion shows against it
     std::size_t triangles = 0;      // instances counted each
     std::vector<std::string> featuresOn;
     std::vector<std::string> featuresOff; // "Name: why"

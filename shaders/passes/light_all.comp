@@ -125,6 +125,7 @@ void main() {
         }
         atomicAdd(counters[COUNTER_RAYS], rays);
         atomicAdd(counters[COUNTER_LIGHTS_IN_RANGE], inRange);
+        atomicAdd(counters[COUNTER_LIGHTS_TESTED], cell.count);
         atomicAdd(counters[COUNTER_SURFACE_PIXELS], 1u);
     }
     imageStore(litDiffuseOut, at, vec4(diffuse, 1.0));

@@ -37,6 +37,7 @@ KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface
 KX_CONST uint COUNTER_RAYS = 0u;
 KX_CONST uint COUNTER_LIGHTS_IN_RANGE = 1u;
 KX_CONST uint COUNTER_SURFACE_PIXELS = 2u;
+KX_CONST uint COUNTER_LIGHTS_TESTED = 3u; // candidates of the pixels' cells
 KX_CONST uint COUNTER_COUNT = 4u;
 
 KX_SHARED_END

@@ -57,6 +57,12 @@ TEST(LightGrid, ChangesNoPicture) {
         expectSameLight(gridded, plain, "seed " + std::to_string(seed));
         EXPECT_GT(gridded.statistics.gridIndices, 0u);
         EXPECT_EQ(gridded.statistics.gridCoarseCells, 0u);
+        // Every light that shines on a pixel is on its list, and the list is shorter than all lights.
+        EXPECT_GE(gridded.statistics.lightsTestedMean, gridded.statistics.lightsInRangeMean);
+        EXPECT_LT(gridded.statistics.lightsTestedMean, 0.8 * plain.statistics.lightsTestedMean);
+        EXPECT_EQ(gridded.statistics.lightsInRangeMean, plain.statistics.lightsInRangeMean);
+        std::printf("seed %u: %.1f of 120 lights shine on a pixel, %.1f are on its list\n", seed,
+                    gridded.statistics.lightsInRangeMean, gridded.statistics.lightsTestedMean);
     }
 }
 

@@ -17,6 +17,7 @@ TEST(Statistics, JsonHoldsEveryField) {
                                      .seed = 4000000000u,
                                      .lights = 14,
                                      .lightsInRangeMean = 1.5,
+                                     .lightsTestedMean = 2.5,
                                      .triangles = 15,
                                      .featuresOn = {"A"},
                                      .featuresOff = {"B: none in the scene"},
@@ -59,6 +60,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["lightGrid"]["tests"], 26);
     EXPECT_EQ(json["notes"], nlohmann::ordered_json({"n"}));
     EXPECT_EQ(json["lightsInRangeMean"], 1.5);
+    EXPECT_EQ(json["lightsTestedMean"], 2.5);
     EXPECT_EQ(json["triangles"], 15);
     EXPECT_EQ(json["features"]["on"], nlohmann::ordered_json({"A"}));
     EXPECT_EQ(json["features"]["off"], nlohmann::ordered_json({"B: none in the scene"}));
@@ -73,7 +75,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["gpuMemoryMiB"]["total"], 38.0);
     EXPECT_EQ(json["firstDispatchMs"]["z_first"], 21.0);
     EXPECT_EQ(json["startupMs"], 22.0);
-    EXPECT_EQ(json.size(), 26u) << "a field was added or lost: say so in the README";
+    EXPECT_EQ(json.size(), 27u) << "a field was added or lost: say so in the README";
 }
 
 } // namespace
