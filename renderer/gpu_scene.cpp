@@ -92,8 +92,7 @@ GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, c
     gpu.flags = (glm::determinant(glm::dmat3(m)) < 0.0 ? INSTANCE_MIRRORED : 0u) |
                 (material.doubleSided ? INSTANCE_DOUBLE_SIDED : 0u) |
                 (instance.role == SurfaceRole::AlphaTested ? INSTANCE_ALPHA_TESTED : 0u) |
-                (primitive.tangents.empty() ? 0u : INSTANCE_HAS_TANGENTS) |
-                (primitive.colors.empty() ? 0u : INSTANCE_HAS_COLORS);
+                (primitive.tangents.empty() ? 0u : INSTANCE_HAS_TANGENTS);
     return gpu;
 }
 
@@ -182,7 +181,7 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::vector<std::uint32
         gpu.roughness = float(material.roughnessFactor);
         gpu.normalScale = float(material.normalScale);
         const bool transmissive = material.transmission > 0.0;
-        gpu.opacity = float(transmissive ? 1.0 - material.transmission : material.baseColorFactor.a);
+        gpu.opacity = float(1.0 - material.transmission);
         gpu.flags = transmissive ? MATERIAL_TRANSMISSIVE : 0u;
         gpu.baseColorTexture = makeTextureRef(material.baseColor, placeOfImage);
         gpu.metallicRoughnessTexture = makeTextureRef(material.metallicRoughness, placeOfImage);

@@ -29,8 +29,7 @@ struct TrianglePositions {
     vec3 a, b, c; // metres, anchor-relative world
 };
 
-TrianglePositions trianglePositions(GpuInstance instance, uint primitive) {
-    uvec3 v = triangleVertices(instance, primitive);
+TrianglePositions trianglePositions(GpuInstance instance, uvec3 v) {
     return TrianglePositions(transformPoint(instance, vertexPosition(v.x)), transformPoint(instance, vertexPosition(v.y)),
                              transformPoint(instance, vertexPosition(v.z)));
 }

@@ -58,9 +58,7 @@ vec2 fetchUv1(GpuInstance instance, uvec3 v, vec3 w) {
 SurfaceHit evaluateSurface(uint instanceId, uint primitive, vec3 origin, vec3 dir, vec3 viewDirWs, float pixelAngleRad) {
     GpuInstance instance = instances[instanceId];
     uvec3 v = triangleVertices(instance, primitive);
-    TrianglePositions t = TrianglePositions(transformPoint(instance, vertexPosition(v.x)),
-                                            transformPoint(instance, vertexPosition(v.y)),
-                                            transformPoint(instance, vertexPosition(v.z)));
+    TrianglePositions t = trianglePositions(instance, v);
     vec2 bc = planeBarycentrics(t, origin, dir);
     vec3 w = vec3(1.0 - bc.x - bc.y, bc);
     Corner a = fetchCorner(v.x), b = fetchCorner(v.y), c = fetchCorner(v.z);

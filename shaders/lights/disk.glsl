@@ -9,15 +9,11 @@ KX_INLINE float diskAreaM2(LightHot light) {
 }
 
 KX_INLINE LightBounds diskBounds(LightHot light) {
-    LightBounds bounds = rangeBounds(light);
-    bounds.cosHalfAngle = 0.0;
-    return bounds;
+    return oneSidedBounds(light);
 }
 
 KX_INLINE vec3 diskEvaluate(LightHot light, vec3 receiverWs) {
-    vec3 fromCenter = receiverWs - light.positionWs;
-    float side = dot(light.dirWs, fromCenter) > 0.0 ? 1.0 : 0.0;
-    return light.intensity * (side * rangeWindow(light, length(fromCenter)) / diskAreaM2(light));
+    return oneSidedEvaluate(light, receiverWs, diskAreaM2(light));
 }
 
 KX_INLINE EmitterOutline diskOutline(LightHot light, vec3 receiverWs, float alpha) {

@@ -9,15 +9,11 @@ KX_INLINE float rectAreaM2(LightHot light) {
 }
 
 KX_INLINE LightBounds rectBounds(LightHot light) {
-    LightBounds bounds = rangeBounds(light);
-    bounds.cosHalfAngle = 0.0;
-    return bounds;
+    return oneSidedBounds(light);
 }
 
 KX_INLINE vec3 rectEvaluate(LightHot light, vec3 receiverWs) {
-    vec3 fromCenter = receiverWs - light.positionWs;
-    float side = dot(light.dirWs, fromCenter) > 0.0 ? 1.0 : 0.0;
-    return light.intensity * (side * rangeWindow(light, length(fromCenter)) / rectAreaM2(light));
+    return oneSidedEvaluate(light, receiverWs, rectAreaM2(light));
 }
 
 // The four corners are an ellipse's points at 45, 135, 225 and 315 degrees.

@@ -175,4 +175,17 @@ KX_INLINE LightBounds rangeBounds(LightHot light) {
     return bounds;
 }
 
+// Rectangle and disk shine on the side they look to only: a half space, and a radiance of intensity / area there.
+KX_INLINE LightBounds oneSidedBounds(LightHot light) {
+    LightBounds bounds = rangeBounds(light);
+    bounds.cosHalfAngle = 0.0;
+    return bounds;
+}
+
+KX_INLINE vec3 oneSidedEvaluate(LightHot light, vec3 receiverWs, float areaM2) {
+    vec3 fromCenter = receiverWs - light.positionWs;
+    float side = dot(light.dirWs, fromCenter) > 0.0 ? 1.0 : 0.0;
+    return light.intensity * (side * rangeWindow(light, length(fromCenter)) / areaM2);
+}
+
 #endif

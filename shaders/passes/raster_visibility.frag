@@ -13,7 +13,8 @@ layout(location = 0) out uvec2 outVisibility;
 void main() {
     if (kAlphaMask && (instances[instanceId].flags & INSTANCE_ALPHA_TESTED) != 0u) {
         CameraRay ray = cameraRay(gl_FragCoord.xy);
-        TrianglePositions t = trianglePositions(instances[instanceId], uint(gl_PrimitiveID));
+        GpuInstance instance = instances[instanceId];
+        TrianglePositions t = trianglePositions(instance, triangleVertices(instance, uint(gl_PrimitiveID)));
         if (!alphaPasses(instanceId, uint(gl_PrimitiveID), planeBarycentrics(t, ray.originWs, ray.dir))) discard;
     }
     outVisibility = uvec2(instanceId, uint(gl_PrimitiveID));

@@ -14,7 +14,6 @@ KX_CONST uint INSTANCE_MIRRORED = 1u; // negative determinant: triangles wind th
 KX_CONST uint INSTANCE_DOUBLE_SIDED = 2u;
 KX_CONST uint INSTANCE_ALPHA_TESTED = 4u;
 KX_CONST uint INSTANCE_HAS_TANGENTS = 8u;
-KX_CONST uint INSTANCE_HAS_COLORS = 16u;
 
 KX_CONST uint NO_OFFSET = 0xffffffffu;
 
@@ -54,7 +53,7 @@ struct GpuMaterial {
     float metallic;
     float roughness;
     float normalScale;
-    float opacity; // of BLEND and transmission, for the forward pass
+    float opacity; // what transmission stops; read where MATERIAL_TRANSMISSIVE
     uint flags;    // MATERIAL_*
     GpuTextureRef baseColorTexture;
     GpuTextureRef metallicRoughnessTexture;

@@ -15,7 +15,6 @@ KX_CONST uint LIGHT_TUBE = 3u;             // a capsule along the tangent
 KX_CONST uint LIGHT_RECT = 4u;             // one-sided, tangent is the width axis
 KX_CONST uint LIGHT_DISK = 5u;             // one-sided
 KX_CONST uint LIGHT_UNIFORM_SLOTS = 1024u; // hot records that a uniform block holds: 64 KiB
-KX_CONST uint LIGHT_TYPE_COUNT = 6u;
 KX_CONST uint LIGHT_TYPE_MASK = 15u;
 KX_CONST uint LIGHT_FLAG_DEAD = 16u;  // freed or never used slot: weight 0
 KX_CONST uint LIGHT_FLAG_MUTED = 32u; // weight 0, slot kept
