@@ -229,6 +229,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     constants.rasterized = plan.producer == GBufferProducer::Raster;
     grid->describe(constants, sceneExtentM);
     constants.grid.enabled &= options.settings.lightGrid;
+    constants.grid.threadLights = std::uint32_t(options.settings.gridThreadLights);
     frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
 
     gpu::Commands commands(device, &passTimes);

@@ -2,6 +2,7 @@
 #include "renderer/settings.h"
 
 #include "renderer/nearest_name.h"
+#include "shaders/shared/light_grid.h"
 
 #include <array>
 #include <charconv>
@@ -71,6 +72,13 @@ constexpr std::array kRows = {
     SettingRow{.name = "lightGrid",
                .member = &Settings::lightGrid,
                .help = "cull lights into cells of the view; off walks all lights for the same picture"},
+    SettingRow{.name = "gridThreadLights",
+               .member = &Settings::gridThreadLights,
+               .min = 0,
+               .max = shared::GRID_MAX_THREAD_LIGHTS,
+               .unit = "lights",
+               .help = "coarse cells with at most so many lights fill their fine cells by a thread each, "
+                       "others by a group; the same lists"},
     SettingRow{.name = "jitter",
                .member = &Settings::jitter,
                .help = "move the sample inside the pixel from frame to frame"},

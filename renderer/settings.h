@@ -35,6 +35,7 @@ struct Settings {
     double raysPerPixel = 1.0;
     int raysPerLight = 1;
     bool lightGrid = true;
+    int gridThreadLights = 256;
     bool jitter = true;
     PixelFilter pixelFilter = PixelFilter::BlackmanHarris;
     ToneMap toneMap = ToneMap::Neutral;

@@ -1,5 +1,5 @@
-// Lights into cells of the view, in two passes: all lights into coarse cells, each coarse list into fine
-// ones.
+// Lights into cells of the view, in two passes over the coarse cells: all lights into each, then its list
+// into the fine cells within.
 #include "renderer/passes/passes.h"
 
 namespace kilolux {
@@ -9,6 +9,7 @@ using gpu::Access;
 LightGridPass::LightGridPass(gpu::PassResources& resources)
     : coarse_(resources, "cull_coarse",
               joined({{{"Frame"},
+                       {"pyramid"},
                        {"CoarseCells", Access::Write},
                        {"GridIndices", Access::Write},
                        {"GridCounters", Access::ReadWrite}},
@@ -26,9 +27,10 @@ void LightGridPass::record(FrameContext& frame) {
     if (!frame.constants.grid.enabled) return;
     const LightGrid& grid = frame.grid;
     frame.commands.fillBuffer(grid.counters(), 0);
-    const glm::uvec3 coarse = frame.constants.grid.coarseSize, fine = frame.constants.grid.fineSize;
+    const glm::uvec3 coarse = frame.constants.grid.coarseSize;
     coarse_.record(frame.commands, frame.features,
                    joined({{{"Frame", frame.frameBuffer},
+                            {"pyramid", frame.targets.pyramid},
                             {"CoarseCells", grid.coarseCells()},
                             {"GridIndices", grid.indices()},
                             {"GridCounters", grid.counters()}},
@@ -42,7 +44,7 @@ void LightGridPass::record(FrameContext& frame) {
                           {"GridIndices", grid.indices()},
                           {"GridCounters", grid.counters()}},
                          frame.scene.lightBindings()}),
-                 {fine.x, fine.y, fine.z});
+                 {coarse.x, coarse.y, coarse.z});
 }
 
 } // namespace kilolux

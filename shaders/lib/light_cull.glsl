@@ -1,5 +1,5 @@
-// Whether a light may reach a cell, and the sorted list of a cell's lights: gathered by all threads of a group as
-// a bitmask in shared memory, counted by prefix sum, copied out once.
+// Whether a light may reach a cell, which depths of a cell hold surfaces, and the bitmask in shared memory from which
+// a cell's sorted list is counted and copied out. For the passes that fill the light grid.
 #ifndef KILOLUX_LIB_LIGHT_CULL_GLSL
 #define KILOLUX_LIB_LIGHT_CULL_GLSL
 #include "light_access.glsl"
@@ -8,60 +8,82 @@
 layout(scalar) buffer GridCounters {
     uint gridCounters[];
 };
+uniform sampler2D pyramid; // nearest and farthest depth of 2 x 2, 4 x 4, ... pixels
 
-// A block of the view between two depths: a box along the camera's axes and a sphere around it, both conservative.
+// --- A cell ------------------------------------------------------------------------------------------------
+
+const int kPyramidFine = 4;   // one texel per 32 x 32 pixels
+const int kPyramidCoarse = 6; // 128 x 128
+
+// The part of a column's depths nearM to farM in which its pixels have surfaces; empty (y < x) without any. Odd sizes
+// let a texel of the pyramid's last row or column stand for more pixels than the regular ones.
+vec2 surfaceDepths(uvec2 column, int level, float nearM, float farM) {
+    if (textureQueryLevels(pyramid) <= level) return vec2(nearM, farM); // a picture smaller than a cell
+    ivec2 last = max(ivec2(frame.size >> uint(level + 1)) - 1, ivec2(0));
+    vec2 range = texelFetch(pyramid, min(ivec2(column), last), level).xy;
+    if (range.x >= DEPTH_SKY) return vec2(1.0, 0.0);
+    return vec2(max(nearM, range.x), min(farM, range.y));
+}
+
+// A block of the view between two depths: a box that holds it, turned with the block's middle ray. A box along the
+// camera's axes would be several times as wide at the edges of the picture.
 struct CellBounds {
-    vec3 originWs; // the axes' origin
-    vec3 right, down, forward;
-    vec3 lower, upper; // along them
     vec3 centerWs;
-    float radiusM;
+    vec3 right, down, forward; // unit
+    vec3 halfM;                // along them
 };
 
-CellBounds cellBounds(uvec2 firstPx, uvec2 endPx, float nearM, float farM) {
+CellBounds cellBounds(uvec2 firstPx, uvec2 endPx, vec2 depthsM) {
     CellBounds cell;
-    cell.originWs = frame.originBase;
-    cell.right = normalize(frame.dirStepX + frame.originStepX);
-    cell.down = normalize(frame.dirStepY + frame.originStepY);
-    cell.forward = cross(cell.right, cell.down);
-    cell.lower = vec3(KX_INFINITY);
-    cell.upper = vec3(-KX_INFINITY);
-    vec3 sum = vec3(0.0);
+    CameraRay middle = cameraRay(0.5 * (vec2(firstPx) + vec2(endPx)));
+    cell.forward = normalize(middle.dir);
+    vec3 right = frame.dirStepX + frame.originStepX;
+    cell.right = normalize(right - cell.forward * dot(cell.forward, right));
+    cell.down = cross(cell.forward, cell.right);
+    vec3 lower = vec3(KX_INFINITY), upper = vec3(-KX_INFINITY);
     for (int corner = 0; corner < 8; ++corner) {
         // Half a pixel more on every side: jitter moves rays within their pixel.
         vec2 px = vec2((corner & 1) != 0 ? vec2(endPx).x + 0.5 : vec2(firstPx).x - 0.5,
                        (corner & 2) != 0 ? vec2(endPx).y + 0.5 : vec2(firstPx).y - 0.5);
         CameraRay ray = cameraRay(px);
-        vec3 offset = ray.originWs - cell.originWs + ray.dir * ((corner & 4) != 0 ? farM : nearM);
+        vec3 offset = ray.originWs - middle.originWs + ray.dir * ((corner & 4) != 0 ? depthsM.y : depthsM.x);
         vec3 p = vec3(dot(offset, cell.right), dot(offset, cell.down), dot(offset, cell.forward));
-        cell.lower = min(cell.lower, p);
-        cell.upper = max(cell.upper, p);
+        lower = min(lower, p);
+        upper = max(upper, p);
     }
-    vec3 center = 0.5 * (cell.lower + cell.upper);
-    cell.centerWs = cell.originWs + cell.right * center.x + cell.down * center.y + cell.forward * center.z;
-    // Rounding of positions, relative to the distance from the camera.
-    vec3 slack = vec3(1.0e-5 * max(abs(cell.upper.z), 1.0e-3));
-    cell.lower -= slack;
-    cell.upper += slack;
-    cell.radiusM = 0.5 * length(cell.upper - cell.lower);
+    vec3 center = 0.5 * (lower + upper);
+    cell.centerWs = middle.originWs + cell.right * center.x + cell.down * center.y + cell.forward * center.z;
+    // Rounding of positions, relative to their distances from the camera and the anchor.
+    float slackM = 1.0e-5 * max(upper.z, 1.0e-3) + 1.0e-6 * length(cell.centerWs);
+    cell.halfM = 0.5 * (upper - lower) + slackM;
     return cell;
+}
+
+// Whether the cell lies beyond a plane by more than `slackM`: nothing of it is on the inner side. What bounds a light by
+// planes (the sides of cones, half spaces) asks this.
+bool cellBeyondPlane(CellBounds cell, vec3 pointToCell, vec3 outward, float slackM) {
+    vec3 along = abs(vec3(dot(outward, cell.right), dot(outward, cell.down), dot(outward, cell.forward)));
+    return dot(outward, pointToCell) > dot(along, cell.halfM) + slackM;
 }
 
 bool lightMayReach(LightHot light, CellBounds cell) {
     LightBounds bounds = lightBounds(light);
     if (bounds.radiusM <= 0.0) return false;
-    vec3 offset = bounds.centerWs - cell.originWs;
-    vec3 p = vec3(dot(offset, cell.right), dot(offset, cell.down), dot(offset, cell.forward));
-    vec3 outside = max(max(cell.lower - p, p - cell.upper), vec3(0.0));
-    bool directional = lightType(light) == LIGHT_DIRECTIONAL;
-    if (!directional && dot(outside, outside) > bounds.radiusM * bounds.radiusM * 1.00001) return false;
-    if (directional || bounds.cosHalfAngle <= -1.0) return true;
-    // Cone against the sphere around the cell, by the distance to the cone's side.
+    if (lightType(light) == LIGHT_DIRECTIONAL) return true;
     vec3 toCell = cell.centerWs - bounds.centerWs;
+    vec3 p = abs(vec3(dot(toCell, cell.right), dot(toCell, cell.down), dot(toCell, cell.forward)));
+    vec3 outside = max(p - cell.halfM, vec3(0.0));
+    if (dot(outside, outside) > bounds.radiusM * bounds.radiusM * 1.00001) return false;
+    // A cone of at most half the sphere is convex: the plane that touches it on the side towards the cell has all of it
+    // on one side. For a half space, that is its plane. Opened by the tolerance of lightReaches.
+    float cosine = bounds.cosHalfAngle - 1.0e-6;
+    if (cosine < -1.0e-5) return true;
     float along = dot(toCell, bounds.axisWs);
-    float across = sqrt(max(dot(toCell, toCell) - along * along, 0.0));
-    float sine = sqrt(max(1.0 - bounds.cosHalfAngle * bounds.cosHalfAngle, 0.0));
-    return bounds.cosHalfAngle * across - along * sine <= cell.radiusM * 1.0001;
+    vec3 across = toCell - bounds.axisWs * along;
+    float distanceM = length(toCell), acrossM = length(across);
+    vec3 sideways = acrossM > 0.01 * distanceM ? across / acrossM : vec3(0.0);
+    vec3 outward = sideways * cosine - bounds.axisWs * sqrt(max(1.0 - cosine * cosine, 0.0));
+    return !cellBeyondPlane(cell, toCell, outward, 1.0e-5 * distanceM);
 }
 
 // --- The list of a cell ------------------------------------------------------------------------------------
@@ -84,12 +106,9 @@ void markLight(uint position, uint type) {
     atomicOr(sharedTypes, 1u << type);
 }
 
-// Exclusive prefix of this thread's words; `total` of the group. All threads call it.
-uint prefixOfThread(uint thread, out uint total) {
-    barrier();
-    uint sum = 0u;
-    for (uint i = 0u; i < kWordsPerThread; ++i) sum += uint(bitCount(sharedMask[thread * kWordsPerThread + i]));
-    sharedSums[thread] = sum;
+// Exclusive prefix sum of the threads' numbers; `total` of the group. All threads call it.
+uint prefixOf(uint thread, uint number, out uint total) {
+    sharedSums[thread] = number;
     barrier();
     for (uint step = 1u; step < GRID_GROUP; step <<= 1u) {
         uint left = thread >= step ? sharedSums[thread - step] : 0u;
@@ -98,7 +117,15 @@ uint prefixOfThread(uint thread, out uint total) {
         barrier();
     }
     total = sharedSums[GRID_GROUP - 1u];
-    return sharedSums[thread] - sum;
+    return sharedSums[thread] - number;
+}
+
+// Lights marked in this thread's words of the mask.
+uint markedByThread(uint thread) {
+    barrier();
+    uint sum = 0u;
+    for (uint i = 0u; i < kWordsPerThread; ++i) sum += uint(bitCount(sharedMask[thread * kWordsPerThread + i]));
+    return sum;
 }
 
 // Takes room for `total` indices; the group's first thread asks, all get the answer.

@@ -1,5 +1,6 @@
 #version 460
-// Lights of each coarse cell of the grid: a group of threads per cell walks all lights once.
+// Lights of each coarse cell of the grid: a group of threads per cell walks all lights once. Cells in which the depth
+// pyramid shows no surface stay empty.
 #include "shared/features.h"
 #include "lib/light_cull.glsl"
 
@@ -15,15 +16,19 @@ void main() {
     uint thread = gl_LocalInvocationIndex;
     uvec3 cell = gl_WorkGroupID;
     uvec3 first = cell * GRID_COARSE, end = min(first + GRID_COARSE, frame.grid.fineSize);
-    CellBounds bounds = cellBounds(first.xy * GRID_TILE_PX, min(end.xy * GRID_TILE_PX, frame.size),
-                                   gridSliceDepth(first.z), gridSliceDepth(end.z));
+    vec2 depthsM = surfaceDepths(cell.xy, kPyramidCoarse, gridSliceDepth(first.z), gridSliceDepth(end.z));
+    if (depthsM.y < depthsM.x) {
+        if (thread == 0u) coarseCells[gridCoarseIndex(cell)] = GridCell(0u, 0u, 0u);
+        return;
+    }
+    CellBounds bounds = cellBounds(first.xy * GRID_TILE_PX, min(end.xy * GRID_TILE_PX, frame.size), depthsM);
     clearList(thread);
     for (uint slot = thread; slot < frame.lightCount; slot += GRID_GROUP) {
         LightHot light = loadLightHot(slot);
         if (lightMayReach(light, bounds)) markLight(slot, lightType(light));
     }
     uint total;
-    uint at = prefixOfThread(thread, total);
+    uint at = prefixOf(thread, markedByThread(thread), total);
     uint firstIndex = takeRoom(thread, total);
     // The index list is at least as long as all coarse lists can be.
     for (uint i = 0u; i < kWordsPerThread; ++i) {

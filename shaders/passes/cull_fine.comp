@@ -1,6 +1,7 @@
 #version 460
-// Lights of each fine cell, from its coarse cell's list. Cells in which the depth pyramid shows no surface stay
-// empty; a cell without room in the index list takes its coarse cell's.
+// Lights of the fine cells of each coarse cell, from its list. A group of threads first gathers the cells in which the
+// depth pyramid shows a surface, the others stay empty. Then, by the length of the list, each thread fills a cell of
+// its own, or all together fill one after another. A cell without room in the index list takes its coarse cell's.
 #include "shared/features.h"
 #include "lib/light_cull.glsl"
 
@@ -14,38 +15,74 @@ layout(scalar) writeonly buffer GridCells {
 layout(scalar) buffer GridIndices {
     uint gridIndices[];
 };
-uniform sampler2D pyramid; // nearest and farthest depth of 2 x 2, 4 x 4, ... pixels
 
-const int kPyramidLevel = 4; // one texel per 32 x 32 pixels
+shared uint sharedCells; // with surfaces
+shared uint sharedCellIndex[GRID_GROUP];
+shared CellBounds sharedBounds[GRID_GROUP];
 
-// Whether some surface of the cell's pixels lies within its depths. Odd sizes let a texel of the pyramid's last
-// row or column stand for more pixels than the regular ones.
-bool cellHasSurface(uvec2 cell, float nearM, float farM) {
-    if (textureQueryLevels(pyramid) <= kPyramidLevel) return true; // a picture smaller than a cell
-    ivec2 last = max(ivec2(frame.size >> uint(kPyramidLevel + 1)) - 1, ivec2(0));
-    ivec2 at = min(ivec2(cell), last);
-    vec2 range = texelFetch(pyramid, at, kPyramidLevel).xy;
-    return range.x < DEPTH_SKY && range.x <= farM && range.y >= nearM;
+void gatherCells(uint thread) {
+    if (thread == 0u) sharedCells = 0u;
+    barrier();
+    const uint kSide = GRID_COARSE;
+    uvec3 cell = gl_WorkGroupID * kSide + uvec3(thread % kSide, thread / kSide % kSide, thread / (kSide * kSide));
+    if (all(lessThan(cell, frame.grid.fineSize))) {
+        vec2 depthsM = surfaceDepths(cell.xy, kPyramidFine, gridSliceDepth(cell.z), gridSliceDepth(cell.z + 1u));
+        if (depthsM.y < depthsM.x) {
+            gridCells[gridFineIndex(cell)] = GridCell(0u, 0u, 0u);
+        } else {
+            uint at = atomicAdd(sharedCells, 1u);
+            uvec2 endPx = min((cell.xy + 1u) * GRID_TILE_PX, frame.size);
+            sharedBounds[at] = cellBounds(cell.xy * GRID_TILE_PX, endPx, depthsM);
+            sharedCellIndex[at] = gridFineIndex(cell);
+        }
+    }
+    barrier();
 }
 
-void main() {
-    uint thread = gl_LocalInvocationIndex;
-    uvec3 cell = gl_WorkGroupID;
-    float nearM = gridSliceDepth(cell.z), farM = gridSliceDepth(cell.z + 1u);
-    uint index = gridFineIndex(cell);
-    if (!cellHasSurface(cell.xy, nearM, farM)) {
-        if (thread == 0u) gridCells[index] = GridCell(0u, 0u, 0u);
-        return;
+// Whether the list has room; else the cell takes its coarse cell's.
+bool writeCell(uint index, GridCell cell, GridCell coarse) {
+    bool fits = cell.first + cell.count <= frame.grid.capacity;
+    gridCells[index] = fits ? cell : coarse;
+    if (!fits) atomicAdd(gridCounters[GRID_COUNTER_COARSE], 1u);
+    return fits;
+}
+
+void fillByThreads(uint thread, GridCell coarse) {
+    bool busy = thread < sharedCells;
+    CellBounds bounds = sharedBounds[busy ? thread : 0u];
+    uint bits = 0u, count = 0u, types = 0u;
+    for (uint i = 0u; busy && i < coarse.count; ++i) {
+        LightHot light = loadLightHot(gridIndices[coarse.first + i]);
+        if (lightMayReach(light, bounds)) {
+            bits |= 1u << (i & 31u);
+            types |= 1u << lightType(light);
+        }
+        if ((i & 31u) == 31u || i + 1u == coarse.count) {
+            sharedMask[(i >> 5u) * GRID_GROUP + thread] = bits; // read by this thread alone
+            count += uint(bitCount(bits));
+            bits = 0u;
+        }
     }
-    GridCell coarse = coarseCells[gridCoarseIndex(cell / GRID_COARSE)];
-    CellBounds bounds = cellBounds(cell.xy * GRID_TILE_PX, min((cell.xy + 1u) * GRID_TILE_PX, frame.size), nearM, farM);
+    uint total;
+    uint at = prefixOf(thread, count, total);
+    at += takeRoom(thread, total);
+    if (!busy || !writeCell(sharedCellIndex[thread], GridCell(at, count, types), coarse)) return;
+    for (uint word = 0u; word * 32u < coarse.count; ++word) {
+        for (bits = sharedMask[word * GRID_GROUP + thread]; bits != 0u; bits &= bits - 1u) {
+            gridIndices[at++] = gridIndices[coarse.first + word * 32u + uint(findLSB(bits))];
+        }
+    }
+}
+
+void fillByGroup(uint thread, uint place, GridCell coarse) {
+    CellBounds bounds = sharedBounds[place];
     clearList(thread);
     for (uint i = thread; i < coarse.count; i += GRID_GROUP) {
         LightHot light = loadLightHot(gridIndices[coarse.first + i]);
         if (lightMayReach(light, bounds)) markLight(i, lightType(light));
     }
     uint total;
-    uint at = prefixOfThread(thread, total);
+    uint at = prefixOf(thread, markedByThread(thread), total);
     uint firstIndex = takeRoom(thread, total);
     bool fits = firstIndex + total <= frame.grid.capacity;
     for (uint i = 0u; fits && i < kWordsPerThread; ++i) {
@@ -54,13 +91,19 @@ void main() {
             gridIndices[firstIndex + at++] = gridIndices[coarse.first + word * 32u + uint(findLSB(bits))];
         }
     }
-    if (thread == 0u) {
-        if (fits) {
-            gridCells[index] = GridCell(firstIndex, total, sharedTypes);
-        } else {
-            gridCells[index] = coarse;
-            atomicAdd(gridCounters[GRID_COUNTER_COARSE], 1u);
-        }
-        atomicAdd(gridCounters[GRID_COUNTER_TESTS], coarse.count);
+    if (thread == 0u) writeCell(sharedCellIndex[place], GridCell(firstIndex, total, sharedTypes), coarse);
+    barrier(); // the next cell clears the mask
+}
+
+void main() {
+    uint thread = gl_LocalInvocationIndex;
+    GridCell coarse = coarseCells[gridCoarseIndex(gl_WorkGroupID)];
+    gatherCells(thread);
+    uint cells = sharedCells;
+    if (coarse.count <= frame.grid.threadLights) {
+        fillByThreads(thread, coarse);
+    } else {
+        for (uint place = 0u; place < cells; ++place) fillByGroup(thread, place, coarse);
     }
+    if (thread == 0u) atomicAdd(gridCounters[GRID_COUNTER_TESTS], cells * coarse.count);
 }

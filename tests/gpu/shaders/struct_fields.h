@@ -14,7 +14,8 @@
     F(size) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
     F(rasterized) F(grid)
 #define FIELDS_GridConstants(F) \
-    F(fineSize) F(coarseSize) F(firstDepthM) F(slicesPerOctave) F(lastDepthM) F(capacity) F(enabled)
+    F(fineSize) F(coarseSize) F(firstDepthM) F(slicesPerOctave) F(lastDepthM) F(capacity) F(enabled) \
+    F(threadLights)
 #define FIELDS_GridCell(F) F(first) F(count) F(typeMask)
 #define FIELDS_GpuInstance(F) \
     F(row0) F(row1) F(row2) F(firstVertex) F(firstIndex) F(firstUv1) F(material) F(flags) \
