@@ -67,6 +67,13 @@ struct LightChoice {
     float number;       // uniform in [0, 1) whatever was chosen, for further decisions
 };
 
+// The random numbers of a pixel in a frame (noise_tile.glsl, lib/noise.glsl), each uniform in [0, 1). For any
+// more take whiteNoise1 and 2 of the same pixelSeed, at dimensions from 4 on.
+struct PixelNoise {
+    vec3 numbers; // for beginSelection: visible, hidden, directional list
+    vec2 point;   // on the light
+};
+
 // A point of the unit square drawn through an area mask.
 struct MaskedPoint {
     vec2 uv;
