@@ -23,6 +23,7 @@ const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform
 const int CHOICE_ESTIMATOR = 33;         // ESTIMATOR_*
 const int CHOICE_VIEW = 34;              // VIEW_* of shared/views.h
 const int CHOICE_TONE_MAP = 35;          // TONE_MAP_*
+const int CHOICE_WHITE_NOISE = 36;       // white noise instead of blue (lib/noise.glsl)
 
 const int ESTIMATOR_SPLIT = 0; // analytic irradiance times mean visibility
 const int ESTIMATOR_TRUE = 1;  // the BRDF at the sampled point
