@@ -45,6 +45,28 @@ glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene) {
     return glm::round(position / gridM) * gridM;
 }
 
+namespace {
+
+// Reversed depth: near plane at 1, far at 0. Vulkan's clip space has y down. `half`: half extents of the picture
+// plane at distance 1, or in metres for orthographic cameras.
+glm::dmat4 clipFromCamera(const Camera& camera, glm::dvec2 half, glm::dvec2 shift) {
+    glm::dmat4 clip(0.0);
+    clip[0][0] = 1.0 / half.x;
+    clip[1][1] = -1.0 / half.y;
+    if (camera.orthographic) {
+        const double zFarM = camera.zfarM.value_or(camera.znearM + 1e5);
+        const double depth = zFarM - camera.znearM;
+        clip[2][2] = 1.0 / depth;
+        clip[3] = glm::dvec4(shift, zFarM / depth, 1.0);
+    } else {
+        clip[2] = glm::dvec4(-shift, 0.0, -1.0);
+        clip[3][2] = camera.znearM;
+    }
+    return clip;
+}
+
+} // namespace
+
 void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::dvec3& anchor, int widthPx,
                int heightPx, glm::dvec2 jitterPx) {
     const glm::dvec3 right(camera.worldFromCamera[0]), up(camera.worldFromCamera[1]),
@@ -68,23 +90,12 @@ void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::d
 
     const glm::dmat4 world =
         glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0), glm::dvec4(position, 1));
-    // Reversed depth: near plane at 1, far at 0. Vulkan's clip space has y down.
-    glm::dmat4 clip(0.0);
+    const glm::dmat4 cameraFromWorld = glm::inverse(world);
     const glm::dvec2 shift(-2.0 * jitterPx.x / widthPx, -2.0 * jitterPx.y / heightPx);
-    if (camera.orthographic) {
-        const double zFarM = camera.zfarM.value_or(camera.znearM + 1e5);
-        const double depth = zFarM - camera.znearM;
-        clip[0][0] = 1.0 / halfX;
-        clip[1][1] = -1.0 / halfY;
-        clip[2][2] = 1.0 / depth;
-        clip[3] = glm::dvec4(shift, zFarM / depth, 1.0);
-    } else {
-        clip[0][0] = 1.0 / halfX;
-        clip[1][1] = -1.0 / halfY;
-        clip[2] = glm::dvec4(-shift, 0.0, -1.0);
-        clip[3][2] = camera.znearM;
-    }
-    frame.clipFromWorld = glm::mat4(clip * glm::inverse(world));
+    frame.clipFromWorld = glm::mat4(clipFromCamera(camera, glm::dvec2(halfX, halfY), shift) * cameraFromWorld);
+    frame.steadyClipFromWorld =
+        glm::mat4(clipFromCamera(camera, glm::dvec2(halfX, halfY), glm::dvec2(0.0)) * cameraFromWorld);
+    frame.depthRow = glm::vec4(glm::dvec4(-back, glm::dot(back, position)));
     frame.size = {unsigned(widthPx), unsigned(heightPx)};
     frame.tiles = {unsigned(widthPx + 7) / 8, unsigned(heightPx + 7) / 8};
 }

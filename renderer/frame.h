@@ -19,6 +19,10 @@ struct FramePlan {
     int view = 0; // VIEW_*
     std::uint32_t raysPerLight = 1;
     bool transparent = false; // the scene has transparent surfaces
+    bool halfSampling = false;
+    std::uint32_t choices = 1; // samples of one evaluation of the candidate lights
+    bool writeLists = true; // false: frozen
+    bool stochastic() const { return method == Method::Stochastic; }
 };
 
 // The passes that a plan needs; the others do not exist.
@@ -30,7 +34,12 @@ struct FramePasses {
     ResolveGBufferPass resolveGBuffer;
     DepthPyramidPass depthPyramid;
     LightGridPass lightGrid;
-    LightAllPass lightAll;
+    std::unique_ptr<LightAllPass> lightAll;
+    std::unique_ptr<SampleLightsPass> sampleLights;
+    std::unique_ptr<UpsampleSamplesPass> upsampleSamples;
+    std::unique_ptr<TraceSamplesPass> traceSamples;
+    std::unique_ptr<VisibleListPass> visibleList;
+    std::unique_ptr<ShadeSamplesPass> shadeSamples;
     CompositePass composite;
     std::unique_ptr<TransparentPass> transparent;
     AccumulatePass accumulate;

@@ -216,6 +216,12 @@ std::optional<Error> GpuScene::uploadLights(const Scene& scene, double exposureE
     lightsHot_ = gpu::Buffer(device_, desc);
     lightsHot_.upload(lights.hot);
     lightsCold_ = storageBuffer(device_, "lightsCold", lights.cold, "lights");
+    std::vector<std::uint32_t> directional;
+    for (std::uint32_t slot = 0; slot < lightCount_; ++slot) {
+        if ((lights.hot[slot].typeFlags & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL) directional.push_back(slot);
+    }
+    directionalCount_ = std::uint32_t(directional.size());
+    directionalSlots_ = storageBuffer(device_, "directionalSlots", directional, "lights");
     const LtcTable& table = boundLtcTable();
     const auto image = [&](const char* name, const std::vector<glm::vec4>& texels) {
         gpu::Image result(device_, {.name = name,
@@ -293,6 +299,10 @@ gpu::Bindings GpuScene::surfaceBindings() const {
         bindings.push_back(gpu::Binding::second(srgb[i], textures_[i], gpu::SamplerKind::LinearRepeat));
     }
     return bindings;
+}
+
+gpu::Binding GpuScene::environmentBrdf() const {
+    return {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp};
 }
 
 gpu::Bindings GpuScene::lightBindings() const {

@@ -49,6 +49,10 @@ class GpuScene {
     gpu::Bindings surfaceBindings() const;                     // shaders/lib/surface.glsl, geometry included
     const GpuRayWorld& rayWorld() const { return *rayWorld_; } // shaders/lib/trace.glsl and alpha.glsl
     gpu::Bindings lightBindings() const;                       // shaders/lib/light_access.glsl
+    gpu::Binding environmentBrdf() const; // shaders/lib/environment_brdf_table.glsl
+    const gpu::Buffer& directionalSlots() const { return directionalSlots_; }
+    std::uint32_t directionalCount() const { return directionalCount_; }
+    const gpu::Buffer& previousInstances() const { return previousInstanceBuffer_; } // where some move
     const gpu::Buffer& indexBuffer() const { return indexBuffer_; }
 
   private:
@@ -71,7 +75,8 @@ class GpuScene {
     std::size_t triangles_ = 0;
     gpu::Buffer vertexBuffer_, indexBuffer_, uv1Buffer_, instanceBuffer_, materialBuffer_;
     std::array<gpu::Image, shared::TEXTURE_CLASSES> textures_;
-    gpu::Buffer lightsHot_, lightsCold_;
+    gpu::Buffer lightsHot_, lightsCold_, directionalSlots_, previousInstanceBuffer_;
+    std::uint32_t directionalCount_ = 0;
     gpu::Image ltcParameters_, ltcScales_;
 };
 

@@ -46,8 +46,9 @@ LightGrid::LightGrid(gpu::Device& device, std::uint32_t widthPx, std::uint32_t h
 void LightGrid::makeIndices(std::uint32_t capacity) {
     capacity_ = capacity;
     indices_ =
-        gpu::Buffer(device_, {"gridIndices", VkDeviceSize(capacity) * 4, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                              gpu::MemoryUse::DeviceOnly, "light grid"});
+        gpu::Buffer(device_, {"gridIndices", VkDeviceSize(capacity) * 4,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                              gpu::MemoryUse::DeviceOnly, "light grid", VK_FORMAT_R32_UINT});
 }
 
 void LightGrid::limitFineIndices(std::uint32_t indices) {

@@ -29,6 +29,7 @@ constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
     {shared::FEATURE_TUBE_LIGHTS, "TubeLights", "no such light"},
     {shared::FEATURE_RECT_LIGHTS, "RectLights", "no such light"},
     {shared::FEATURE_DISK_LIGHTS, "DiskLights", "no such light"},
+    {shared::FEATURE_MOVING_INSTANCES, "MovingInstances", "nothing moves"},
 }};
 
 double percentile(std::vector<double> values, double share) {

@@ -105,6 +105,8 @@ struct Renderer::Impl {
     void runFrame(std::uint32_t index, int widthPx, int heightPx, gpu::PassTimes& passTimes);
     void compilePipelines();
     Picture readPicture() const;
+    void describeHistory(const shared::FrameConstants& before);
+    bool frozen(std::uint32_t index) const; // what the settings freeze stands still in this frame
 
     double startMs;
     Scene scene; // a copy: meshes and images are shared
@@ -124,6 +126,8 @@ struct Renderer::Impl {
     shared::FrameConstants constants{};
     gpu::SpecValues features;
     gpu::Bindings world;
+    std::unique_ptr<VisibleLists> lists;
+    bool historyValid = false; // the previous frame may be looked up
     gpu::PassTimes times;
     FrameStatistics statistics;
     std::uint64_t lightsInRange = 0, lightsTested = 0, surfacePixels = 0;
@@ -171,6 +175,7 @@ std::optional<Error> Renderer::Impl::prepare() {
     plan.method = Method(*method);
     plan.view = *view;
     plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
+    plan.halfSampling = plan.stochastic() && options.settings.sampling != Sampling::Full;
     plan.transparent = !gpuScene->transparentDraws().empty();
 
     features = gpuScene->features();
@@ -185,15 +190,33 @@ std::optional<Error> Renderer::Impl::prepare() {
         options.settings.toneMap == ToneMap::None ? shared::TONE_MAP_NONE : shared::TONE_MAP_NEUTRAL;
     features[shared::CHOICE_VIEW] = std::uint32_t(plan.view);
 
-    targets =
-        std::make_unique<Targets>(device, std::uint32_t(options.width), std::uint32_t(options.height),
-                                  plan.producer == GBufferProducer::Raster, plan.view != shared::VIEW_FINAL);
+    const std::uint32_t width = std::uint32_t(options.width), height = std::uint32_t(options.height);
+    constants.sampling = samplingConstants(options.settings);
+    features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
+    features[shared::CHOICE_HALF_SAMPLING] = std::uint32_t(options.settings.sampling);
+    features[shared::CHOICE_DEMODULATED] = plan.stochastic();
+    features[shared::CHOICE_LANES] = device.subgroupSize();
+    plan.choices = constants.sampling.choices;
+    TargetNeeds needs;
+    needs.raster = plan.producer == GBufferProducer::Raster;
+    needs.debugView = plan.view != shared::VIEW_FINAL;
+    needs.history = plan.stochastic();
+    needs.rays = plan.stochastic() ? constants.sampling.rays : 0;
+    needs.halfChoices = plan.halfSampling ? constants.sampling.choices : 0;
+    targets = std::make_unique<Targets>(device, width, height, needs);
+    if (plan.stochastic()) {
+        if (gpuScene->lightCount() > shared::SAMPLE_LIGHT_LIMIT) {
+            return Error{fmt::format("{}: {} lights; the stochastic method takes up to {}",
+                                     scene.sourcePath.string(), gpuScene->lightCount(),
+                                     shared::SAMPLE_LIGHT_LIMIT)};
+        }
+        lists = std::make_unique<VisibleLists>(device, width, height);
+    }
     if (options.poisonTargets) poisonTargets();
     passes = std::make_unique<FramePasses>(resources, plan);
     const Bounds bounds = worldBounds(scene);
     sceneExtentM = std::max(glm::length(bounds.max - bounds.min), 1e-3);
-    grid = std::make_unique<LightGrid>(device, std::uint32_t(options.width), std::uint32_t(options.height),
-                                       gpuScene->lightCount());
+    grid = std::make_unique<LightGrid>(device, width, height, gpuScene->lightCount());
     if (options.gridRoom) grid->limitFineIndices(*options.gridRoom);
     frameBuffer =
         gpu::Buffer(device, {"frame", sizeof(shared::FrameConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -220,12 +243,18 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     const glm::dvec2 jitter = options.settings.jitter
                                   ? filterOffset(options.settings.pixelFilter, index, options.seed)
                                   : glm::dvec2(0.0);
+    if (historyValid) targets->turnHistory();
+    const shared::FrameConstants before = constants;
     setCamera(constants, camera, gpuScene->anchor(), widthPx, heightPx, jitter);
     constants.tileChunks = device.isCpu() ? std::max(1u, std::thread::hardware_concurrency()) : 1u;
     constants.frame = index;
+    constants.sampling.noiseFrame = options.settings.freezeNoise && frozen(index)
+                                        ? std::uint32_t(options.settings.freezeFrame)
+                                        : index;
     constants.seed = options.seed;
     constants.lightCount = gpuScene->lightCount();
     constants.exposure = float(exposureFromEv100(exposureEv100));
+    describeHistory(before);
     constants.rasterized = plan.producer == GBufferProducer::Raster;
     grid->describe(constants, sceneExtentM);
     constants.grid.enabled &= options.settings.lightGrid;
@@ -235,7 +264,8 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
     FrameContext context{commands,  *gpuScene,     *targets, frameBuffer,
-                         constants, counterBuffer, *grid,    features};
+                         constants, counterBuffer, *grid,    features, lists.get()};
+    plan.writeLists = !(frozen(index) && options.settings.freezeLists);
     recordFrame(context, *passes, plan, world, index, float(0.25 * sceneExtentM));
     commands.submitAndWait();
     const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
@@ -244,6 +274,24 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     lightsTested += counts[shared::COUNTER_LIGHTS_TESTED];
     surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
     if (constants.grid.enabled) gridUse = grid->finishFrame();
+    if (lists && plan.writeLists) lists->turn();
+    historyValid = true;
+}
+
+// What the frame knows of the one before; without one, the present stands in for it.
+void Renderer::Impl::describeHistory(const shared::FrameConstants& before) {
+    constants.historyValid = historyValid;
+    const shared::FrameConstants& source = historyValid ? before : constants;
+    constants.previousClipFromWorld = source.steadyClipFromWorld;
+    constants.previousDepthRow = source.depthRow;
+    constants.previousSize = source.size;
+    constants.previousTiles = source.tiles;
+    constants.exposureRatio = historyValid ? constants.exposure / before.exposure : 1.0f;
+    constants.sampling.directionalCount = gpuScene->directionalCount();
+}
+
+bool Renderer::Impl::frozen(std::uint32_t index) const {
+    return index >= std::uint32_t(options.settings.freezeFrame);
 }
 
 // CPU drivers compile at the first dispatch. A frame of one tile makes them do it apart from the work, so
@@ -256,6 +304,7 @@ void Renderer::Impl::compilePipelines() {
                                                 *std::max_element(entry.ms.begin(), entry.ms.end()));
     }
     statistics.rays = lightsInRange = lightsTested = surfacePixels = 0;
+    historyValid = false;
 }
 
 Picture Renderer::Impl::readPicture() const {
@@ -309,7 +358,10 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;
     statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
     describeFeatures(features, statistics);
-    describePasses(times, {"cull_coarse", "cull_fine", "light_all"}, statistics);
+    describePasses(times,
+                   {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples", "compact_rays",
+                    "trace_samples", "visible_list", "shade_samples", "denoise_temporal", "denoise_spatial"},
+                   statistics);
     describeMemory(device.memory(), statistics);
     return picture;
 }

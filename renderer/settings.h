@@ -20,6 +20,10 @@ enum class PixelFilter { Box, BlackmanHarris };
 enum class ToneMap { Neutral, None };
 enum class TracerChoice { Auto, Compute, RayQuery };
 enum class GBufferChoice { Auto, Raster, Compute };
+enum class Noise { Blue, White };
+enum class Sampling { Full, HalfCheckerboard, HalfRooks };
+enum class DimLights { Roulette, Drop, Keep };
+enum class PictureChoice { Viewport, Denoised, Mean, Raw };
 
 // A number that the program finds by itself unless the user gives one.
 struct AutoNumber {
@@ -41,6 +45,27 @@ struct Settings {
     ToneMap toneMap = ToneMap::Neutral;
     TracerChoice tracer = TracerChoice::Auto;
     GBufferChoice gbuffer = GBufferChoice::Auto;
+    Sampling sampling = Sampling::Full;
+    Noise noise = Noise::Blue;
+    bool guiding = true;
+    int listLength = 32;
+    int listMemory = 8;
+    bool areaMasks = true;
+    double maskHiddenShare = 0.1;
+    double hiddenShare = 0.2;
+    double missHiddenShare = 0.5;
+    double hiddenRelaxedBelow = 0.02;
+    double directionalShare = 0.5;
+    double directionalFreeBelow = 0.02;
+    int cellCandidates = 8;
+    int missCandidates = 32;
+    DimLights dimLights = DimLights::Roulette;
+    double dimThreshold = 0.002;
+    PictureChoice picture = PictureChoice::Viewport;
+    int freezeFrame = 0;
+    bool freezeNoise = false;
+    bool freezeLists = false;
+    bool freezeHistory = false;
 
     bool operator==(const Settings&) const = default;
 };

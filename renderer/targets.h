@@ -8,8 +8,18 @@
 
 namespace kilolux {
 
+// Which images a plan needs.
+struct TargetNeeds {
+    bool raster = false;    // the raster producer
+    bool debugView = false; // a view other than the picture
+    bool history = false;   // something is looked up in the previous frame
+    std::uint32_t rays = 0; // samples per pixel of the stochastic method; 0: another method
+    std::uint32_t halfChoices = 0; // samples per half-resolution pixel; 0: full resolution
+    bool denoised = false;
+};
+
 struct Targets {
-    Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, bool raster, bool debugView);
+    Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, const TargetNeeds& needs);
 
     gpu::Image visibility;  // RG32UI: instance, primitive; 0xffffffff twice without a surface
     gpu::Image rasterDepth; // D32, reversed; only with the raster producer
@@ -19,12 +29,21 @@ struct Targets {
     gpu::Image gEmissive;   // RGBA16F, exposed
     gpu::Image pyramid;     // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
     gpu::Image litDiffuse;  // RGBA32F, exposed, demodulated by the diffuse albedo
-    gpu::Image litSpecular; // RGBA32F, exposed
+    gpu::Image litSpecular; // RGBA32F, exposed; of the stochastic method without the environment BRDF
+    gpu::Image motion;        // RGBA16F: see shaders/lib/reprojection.glsl; only with history
+    gpu::Image previousDepth; // gDepth of the frame before
+    gpu::Image previousNormals;
+    gpu::Image samples;     // RGBA32UI, a layer per ray: see shaders/shared/sampling.h
+    gpu::Image samplesHalf; // the same at half resolution, a layer per choice
+    gpu::Image rayResults;  // R32UI, a layer per ray
     gpu::Image lightCounts; // R32UI: lights in range, lights seen << 16
     gpu::Image sceneColor;  // RGBA32F, exposed: this frame's picture
     gpu::Image meanColor;   // RGBA32F, exposed: mean of the frames
     gpu::Image viewValues;  // RGBA32F: raw values of a debug view; only with one
     gpu::Image display;     // RGBA8, sRGB-encoded
+
+    // What this frame wrote becomes what the next one finds as previous.
+    void turnHistory();
 
     std::vector<const gpu::Image*> all() const; // those that exist
 };

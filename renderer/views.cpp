@@ -27,10 +27,11 @@ constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
     {"seen-share", "share of the lights in range that is seen, 0 to 1"},
 }};
 
-constexpr std::array<NamedChoice, 3> kMethods{{
+constexpr std::array<NamedChoice, 4> kMethods{{
     {"all-lights", "every light in range of each pixel with one ray each"},
     {"split", "reference: analytic irradiance times mean visibility; converges over --frames"},
     {"true", "reference: the BRDF at sampled points of every light; converges over --frames"},
+    {"stochastic", "about one ray per pixel to lights that earlier frames saw, then one denoiser for all"},
 }};
 
 } // namespace

@@ -10,7 +10,7 @@ namespace kilolux {
 std::span<const NamedChoice> viewChoices();   // index = VIEW_*
 std::span<const NamedChoice> methodChoices(); // index = Method
 
-enum class Method { AllLights, ReferenceSplit, ReferenceTrue };
+enum class Method { AllLights, ReferenceSplit, ReferenceTrue, Stochastic };
 
 // Index of a name; empty text gives 0.
 std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::string_view name);

@@ -43,6 +43,13 @@ VkPipeline ComputePass::create(const SpecValues& features) const {
     const Specialization specialization(features);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module_, specialization);
+    VkPipelineShaderStageRequiredSubgroupSizeCreateInfo lanes{
+        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_REQUIRED_SUBGROUP_SIZE_CREATE_INFO};
+    if (const auto found = features.find(kLanesChoiceId);
+        found != features.end() && device_.canRequireSubgroupSize()) {
+        lanes.requiredSubgroupSize = found->second;
+        info.stage.pNext = &lanes;
+    }
     info.layout = layout_;
     VkPipeline pipeline;
     KX_VK(vkCreateComputePipelines(device_.handle(), device_.pipelineCache(), 1, &info, nullptr, &pipeline));

@@ -174,12 +174,18 @@ void Device::choosePhysicalDevice() {
     }
     VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceSubgroupSizeControlProperties sizes{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES};
+    subgroup.pNext = &sizes;
     driver.pNext = &subgroup;
     VkPhysicalDeviceProperties2 properties2{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties2.pNext = &driver;
     vkGetPhysicalDeviceProperties2(physicalDevice_, &properties2);
     driver_ = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     subgroupSize_ = subgroup.subgroupSize;
+    canRequireSubgroupSize_ = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+                              sizes.minSubgroupSize <= subgroupSize_ &&
+                              subgroupSize_ <= sizes.maxSubgroupSize;
     // lavapipe before Mesa 23 writes timestamps when the command is read, not when the work before it ends.
     const bool oldLavapipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE &&
                              std::string_view(driver.driverInfo).find("Mesa 22.") != std::string_view::npos;
@@ -226,6 +232,7 @@ void Device::createDevice() {
     if (!supported.features.shaderStorageImageExtendedFormats) {
         throw DeviceError("the device lacks shaderStorageImageExtendedFormats");
     }
+    canRequireSubgroupSize_ = canRequireSubgroupSize_ && supported13.subgroupSizeControl;
     if (!supported12.scalarBlockLayout) throw DeviceError("the device lacks scalarBlockLayout");
 
     VkPhysicalDeviceVulkan13Features features13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
@@ -233,6 +240,7 @@ void Device::createDevice() {
     features13.synchronization2 = VK_TRUE;
     features13.dynamicRendering = VK_TRUE;
     features13.maintenance4 = VK_TRUE;
+    features13.subgroupSizeControl = canRequireSubgroupSize_ ? VK_TRUE : VK_FALSE;
     VkPhysicalDeviceVulkan12Features features12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     features12.pNext = &features13;
     features12.scalarBlockLayout = VK_TRUE;

@@ -52,6 +52,7 @@ class Device {
     bool hasGeometryShader() const { return hasGeometryShader_; } // lets fragments read gl_PrimitiveID
     bool hasReliableTimestamps() const { return hasReliableTimestamps_; }
     std::uint32_t subgroupSize() const { return subgroupSize_; }
+    bool canRequireSubgroupSize() const { return canRequireSubgroupSize_; } // of compute pipelines
 
     // Submits and waits; thread-safe. `work` is an array of recorded command buffers in order.
     void submitAndWait(const std::vector<VkCommandBuffer>& work);
@@ -97,6 +98,7 @@ class Device {
     bool hasGeometryShader_ = false;
     bool hasReliableTimestamps_ = false;
     std::uint32_t subgroupSize_ = 0;
+    bool canRequireSubgroupSize_ = false;
     PFN_vkSetDebugUtilsObjectNameEXT setObjectName_ = nullptr;
     std::mutex queueMutex_;
     std::mutex messageMutex_;

@@ -21,6 +21,8 @@ namespace kilolux::gpu {
 // picture), choices from there on (they do).
 using SpecValues = std::map<std::uint32_t, std::uint32_t>;
 constexpr std::uint32_t kFirstChoiceId = 32;
+// A shader that declares this constant runs workgroups of one whole subgroup; the value is its size.
+constexpr std::uint32_t kLanesChoiceId = 40;
 
 enum class Access { Read, Write, ReadWrite };
 enum class Presence {

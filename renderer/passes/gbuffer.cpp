@@ -14,20 +14,24 @@ ResolveGBufferPass::ResolveGBufferPass(gpu::PassResources& resources)
                      {"gDepthOut", Access::Write},
                      {"gNormalsOut", Access::Write},
                      {"gMaterialOut", Access::Write},
-                     {"gEmissiveOut", Access::Write}},
+                     {"gEmissiveOut", Access::Write},
+                     {"motionOut", Access::Write, gpu::Presence::Optional},
+                     {"PreviousInstances", Access::Read, gpu::Presence::Optional}},
                     surfaceUses()})) {}
 
 void ResolveGBufferPass::record(FrameContext& frame) {
     const Targets& targets = frame.targets;
-    pass_.record(frame.commands, frame.features,
-                 joined({{{"Frame", frame.frameBuffer},
-                          {"visibility", targets.visibility},
-                          {"gDepthOut", targets.gDepth},
-                          {"gNormalsOut", targets.gNormals},
-                          {"gMaterialOut", targets.gMaterial},
-                          {"gEmissiveOut", targets.gEmissive}},
-                         frame.scene.surfaceBindings()}),
-                 frame.tiles());
+    gpu::Bindings bindings = joined({{{"Frame", frame.frameBuffer},
+                                      {"visibility", targets.visibility},
+                                      {"gDepthOut", targets.gDepth},
+                                      {"gNormalsOut", targets.gNormals},
+                                      {"gMaterialOut", targets.gMaterial},
+                                      {"gEmissiveOut", targets.gEmissive}},
+                                     frame.scene.surfaceBindings()});
+    if (targets.motion) bindings.emplace_back("motionOut", targets.motion);
+    if (frame.scene.previousInstances())
+        bindings.emplace_back("PreviousInstances", frame.scene.previousInstances());
+    pass_.record(frame.commands, frame.features, bindings, frame.tiles());
 }
 
 DepthPyramidPass::DepthPyramidPass(gpu::PassResources& resources)

@@ -47,6 +47,7 @@ CompositePass::CompositePass(gpu::PassResources& resources)
              {"gEmissive"},
              {"litDiffuse"},
              {"litSpecular"},
+             {"ltcScales"},
              {"sceneColorOut", Access::Write}}) {}
 
 void CompositePass::record(FrameContext& frame) {
@@ -58,6 +59,7 @@ void CompositePass::record(FrameContext& frame) {
                   {"gEmissive", targets.gEmissive},
                   {"litDiffuse", targets.litDiffuse},
                   {"litSpecular", targets.litSpecular},
+                  frame.scene.environmentBrdf(),
                   {"sceneColorOut", targets.sceneColor}},
                  frame.tiles());
 }

@@ -39,6 +39,7 @@ DebugViewPass::DebugViewPass(gpu::PassResources& resources)
              {"litSpecular"},
              {"lightCounts"},
              {"pyramid"},
+             {"ltcScales"},
              {"displayOut", Access::Write},
              {"viewValuesOut", Access::Write}}) {}
 
@@ -55,6 +56,7 @@ void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
                   {"litSpecular", targets.litSpecular},
                   {"lightCounts", targets.lightCounts},
                   {"pyramid", targets.pyramid},
+                  frame.scene.environmentBrdf(),
                   {"displayOut", targets.display},
                   {"viewValuesOut", targets.viewValues}},
                  depthScaleM, frame.tiles());

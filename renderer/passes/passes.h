@@ -6,6 +6,7 @@
 #include "renderer/gpu_scene.h"
 #include "renderer/light_grid.h"
 #include "renderer/targets.h"
+#include "renderer/visible_lists.h"
 #include "shaders/shared/frame.h"
 
 namespace kilolux {
@@ -20,6 +21,7 @@ struct FrameContext {
     const gpu::Buffer& counters;
     const LightGrid& grid;
     gpu::SpecValues features;
+    const VisibleLists* lists = nullptr; // of the stochastic method
 
     // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
     gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
@@ -75,6 +77,51 @@ class LightAllPass {
   public:
     LightAllPass(gpu::PassResources& resources, TraceBackEnd tracer);
     void record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t raysPerLight);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class SampleLightsPass {
+  public:
+    SampleLightsPass(gpu::PassResources& resources, std::uint32_t choices);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class UpsampleSamplesPass {
+  public:
+    explicit UpsampleSamplesPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class TraceSamplesPass {
+  public:
+    TraceSamplesPass(gpu::PassResources& resources, TraceBackEnd tracer);
+    void record(FrameContext& frame, const gpu::Bindings& world);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class VisibleListPass {
+  public:
+    explicit VisibleListPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class ShadeSamplesPass {
+  public:
+    explicit ShadeSamplesPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
 
   private:
     gpu::ComputePass pass_;

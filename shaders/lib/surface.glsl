@@ -12,6 +12,7 @@ uniform samplerBuffer uv1s; // RG32F, the second uv set of the primitives that h
 struct SurfaceHit {
     Surface surface;
     vec3 positionWs;
+    vec3 positionLs; // in the instance's own space
     vec3 emissiveNit;
     float alpha; // base colour alpha, not tested
 };
@@ -66,6 +67,7 @@ SurfaceHit evaluateSurface(uint instanceId, uint primitive, vec3 origin, vec3 di
 
     SurfaceHit hit;
     hit.positionWs = t.a + bc.x * (t.b - t.a) + bc.y * (t.c - t.a);
+    hit.positionLs = w.x * vertexPosition(v.x) + w.y * vertexPosition(v.y) + w.z * vertexPosition(v.z);
     vec3 face = cross(t.b - t.a, t.c - t.a);
     vec3 ng = normalizeOr((instance.flags & INSTANCE_MIRRORED) != 0u ? -face : face, viewDirWs);
     vec3 ns = normalizeOr(transformNormal(instance, w.x * a.normal + w.y * b.normal + w.z * c.normal), ng);

@@ -142,17 +142,20 @@ KX_INLINE LightChoice selectionSample(LightSelection s, SelectionBudget budget, 
     choice.list = LIST_VISIBLE;
     choice.number = winner.number;
     choice.probability = winner.weight / max(s.visibleSum + sums.x + sums.y, KX_LEAST_WEIGHT);
+    choice.weight = winner.weight;
     float factor = winner.factor;
     if (winner.item == KX_WINNER_HIDDEN) {
         choice.item = s.hidden[index].item;
         choice.list = LIST_HIDDEN;
         choice.probability *= s.hidden[index].weight / s.hiddenSum;
         factor = s.hidden[index].factor;
+        choice.weight = s.hidden[index].weight;
     } else if (winner.item == KX_WINNER_DIRECTIONAL) {
         choice.item = s.directional[index].item;
         choice.list = LIST_DIRECTIONAL;
         choice.probability *= s.directional[index].weight / s.directionalSum;
         factor = s.directional[index].factor;
+        choice.weight = s.directional[index].weight;
     }
     choice.contribution = choice.probability > KX_LEAST_PROBABILITY ? factor / choice.probability : 0.0;
     return choice;

@@ -65,6 +65,7 @@ struct LightChoice {
     float probability;  // that this sample takes this light, given the pixel's candidates; 0 without a light
     float contribution; // the candidate's factor / probability; 0 without a light
     float number;       // uniform in [0, 1) whatever was chosen, for further decisions
+    float weight;       // the candidate's, its stride contained; 0 without a light
 };
 
 // The random numbers of a pixel in a frame (noise_tile.glsl, lib/noise.glsl), each uniform in [0, 1). For any

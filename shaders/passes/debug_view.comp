@@ -3,10 +3,12 @@
 #include "shared/features.h"
 #include "shared/views.h"
 #include "lib/dispatch.glsl"
+#include "lib/environment_brdf_table.glsl"
 #include "lib/gbuffer.glsl"
 #include "math/color_map.glsl"
 #include "math/tone_map.glsl"
 
+layout(constant_id = CHOICE_DEMODULATED) const bool kDemodulated = false;
 layout(constant_id = CHOICE_VIEW) const int kView = VIEW_DIFFUSE;
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -48,6 +50,7 @@ void main() {
         value = kView == VIEW_DIFFUSE    ? texelFetch(litDiffuse, at, 0).rgb
                 : kView == VIEW_SPECULAR ? texelFetch(litSpecular, at, 0).rgb
                                          : texelFetch(gEmissive, at, 0).rgb;
+        if (kView == VIEW_SPECULAR && kDemodulated) value *= environmentBrdfAt(s, pixel);
         shown = srgbFromLinear(clamp(toneMapNeutral(value), 0.0, 1.0));
         value /= frame.exposure;
     } else if (kView == VIEW_NORMAL || kView == VIEW_GEOMETRIC_NORMAL) {

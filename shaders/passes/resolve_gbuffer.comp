@@ -4,12 +4,35 @@
 #include "lib/dispatch.glsl"
 #include "lib/surface.glsl"
 
+layout(constant_id = FEATURE_MOVING_INSTANCES) const bool kMovingInstances = true;
+
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform usampler2D visibility;
 layout(r32f) writeonly uniform image2D gDepthOut;
 layout(rg32ui) writeonly uniform uimage2D gNormalsOut;
 layout(rg32ui) writeonly uniform uimage2D gMaterialOut;
 layout(rgba16f) writeonly uniform image2D gEmissiveOut;
+
+layout(rgba16f) writeonly uniform image2D motionOut;
+layout(scalar) readonly buffer PreviousInstances {
+    InstanceRows previousInstances[];
+};
+
+// Where the surface point was in the previous frame: uv offset, linear depth. Both uvs come from one expression, so
+// that what stands still under a still camera gets exactly 0.
+vec3 motionOf(uint instanceId, vec3 positionWs, vec3 positionLs) {
+    vec3 beforeWs = positionWs;
+    if (kMovingInstances && (instances[instanceId].flags & INSTANCE_MOVING) != 0u) {
+        InstanceRows rows = previousInstances[instanceId];
+        vec4 p = vec4(positionLs, 1.0);
+        beforeWs = vec3(dot(rows.row0, p), dot(rows.row1, p), dot(rows.row2, p));
+    }
+    vec4 now = frame.steadyClipFromWorld * vec4(positionWs, 1.0);
+    vec4 before = frame.previousClipFromWorld * vec4(beforeWs, 1.0);
+    float depthM = dot(frame.previousDepthRow, vec4(beforeWs, 1.0));
+    if (before.w <= 0.0) return vec3(4.0, 4.0, depthM); // behind the previous camera: far outside its picture
+    return vec3(clamp(0.5 * (before.xy / before.w - now.xy / now.w), -4.0, 4.0), depthM);
+}
 
 const float kHalfMax = 65504.0;
 
@@ -20,7 +43,7 @@ void main() {
     uvec2 seen = texelFetch(visibility, at, 0).xy;
     float depthM = DEPTH_SKY;
     uvec2 normals = uvec2(0u), material = uvec2(0u);
-    vec3 emissive = vec3(0.0);
+    vec3 emissive = vec3(0.0), moved = vec3(0.0);
     if (seen.x != 0xffffffffu) {
         CameraRay camera = cameraRay(pixel);
         SurfaceHit hit = evaluateSurface(seen.x, seen.y, camera.originWs, camera.dir, -normalize(camera.dir),
@@ -28,10 +51,13 @@ void main() {
         depthM = max(dot(hit.positionWs - camera.originWs, camera.dir) / dot(camera.dir, camera.dir), frame.zNearM);
         normals = packNormals(hit.surface);
         material = packMaterial(hit.surface);
+        moved = motionOf(seen.x, hit.positionWs, hit.positionLs);
         emissive = min(hit.emissiveNit * frame.exposure, vec3(kHalfMax));
     }
     imageStore(gDepthOut, at, vec4(depthM));
     imageStore(gNormalsOut, at, uvec4(normals, 0u, 0u));
     imageStore(gMaterialOut, at, uvec4(material, 0u, 0u));
     imageStore(gEmissiveOut, at, vec4(emissive, 1.0));
+    // Methods without history have no such image: a dummy of one texel stands in.
+    if (all(lessThan(at, imageSize(motionOut)))) imageStore(motionOut, at, vec4(min(moved, vec3(kHalfMax)), 0.0));
 }

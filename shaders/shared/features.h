@@ -16,7 +16,8 @@ const int FEATURE_SPOT_LIGHTS = 4;
 const int FEATURE_TUBE_LIGHTS = 5;
 const int FEATURE_RECT_LIGHTS = 6;
 const int FEATURE_DISK_LIGHTS = 7;
-const int FEATURE_COUNT = 8;
+const int FEATURE_MOVING_INSTANCES = 8; // some instance may move
+const int FEATURE_COUNT = 9;
 
 // Choices of the frame that are specialization constants too, beyond the features.
 const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform block holds
@@ -24,6 +25,15 @@ const int CHOICE_ESTIMATOR = 33;         // ESTIMATOR_*
 const int CHOICE_VIEW = 34;              // VIEW_* of shared/views.h
 const int CHOICE_TONE_MAP = 35;          // TONE_MAP_*
 const int CHOICE_WHITE_NOISE = 36;       // white noise instead of blue (lib/noise.glsl)
+
+const int CHOICE_WHITE_NOISE = 36;       // white instead of blue noise
+const int CHOICE_HALF_SAMPLING = 37;     // HALF_*
+const int CHOICE_DEMODULATED = 38;       // specular light is without the environment BRDF
+const int CHOICE_LANES = 40;             // of a subgroup, for passes whose workgroup is one; see gpu/pass.h
+
+const int HALF_OFF = 0;
+const int HALF_CHECKERBOARD = 1;
+const int HALF_ROOKS = 2;
 
 const int ESTIMATOR_SPLIT = 0; // analytic irradiance times mean visibility
 const int ESTIMATOR_TRUE = 1;  // the BRDF at the sampled point

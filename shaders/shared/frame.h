@@ -3,6 +3,7 @@
 #define KILOLUX_SHARED_FRAME_H
 #include "base.h"
 #include "light_grid.h"
+#include "sampling.h"
 
 KX_SHARED_BEGIN
 
@@ -29,6 +30,16 @@ struct FrameConstants {
     float zNearM;
     uint rasterized; // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
     GridConstants grid;
+    // Motion and history. Both matrices are without jitter and relative to this frame's anchor.
+    mat4 steadyClipFromWorld;
+    mat4 previousClipFromWorld;
+    vec4 depthRow;         // linear depth = dot(row, vec4(position, 1))
+    vec4 previousDepthRow; // linear depth in the previous frame = dot(row, vec4(position, 1))
+    uvec2 previousSize;    // pixels of the previous frame's sub-rectangle
+    uvec2 previousTiles;
+    float exposureRatio; // exposure over the one that history was written with
+    uint historyValid;   // 0: the first frame, or the first after a cut
+    SamplingConstants sampling;
 };
 
 KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface
@@ -38,7 +49,12 @@ KX_CONST uint COUNTER_RAYS = 0u;
 KX_CONST uint COUNTER_LIGHTS_IN_RANGE = 1u;
 KX_CONST uint COUNTER_SURFACE_PIXELS = 2u;
 KX_CONST uint COUNTER_LIGHTS_TESTED = 3u; // candidates of the pixels' cells
-KX_CONST uint COUNTER_COUNT = 4u;
+KX_CONST uint COUNTER_USEFUL_RAYS = 4u;    // rays that met their light
+KX_CONST uint COUNTER_CANDIDATES = 5u;     // lights that pixels evaluated
+KX_CONST uint COUNTER_LIST_ENTRIES = 6u;   // of all visible lists
+KX_CONST uint COUNTER_LIST_OVERFLOW = 7u;  // lights that a list had no room for
+KX_CONST uint COUNTER_SAMPLES = 8u;        // samples with a light
+KX_CONST uint COUNTER_COUNT = 9u;
 
 KX_SHARED_END
 #endif

@@ -15,6 +15,8 @@ KX_CONST uint INSTANCE_DOUBLE_SIDED = 2u;
 KX_CONST uint INSTANCE_ALPHA_TESTED = 4u;
 KX_CONST uint INSTANCE_HAS_TANGENTS = 8u;
 
+KX_CONST uint INSTANCE_MOVING = 16u; // its transform of the previous frame is in PreviousInstances
+
 KX_CONST uint NO_OFFSET = 0xffffffffu;
 
 struct GpuInstance {
@@ -27,6 +29,12 @@ struct GpuInstance {
     uint material;
     uint flags; // INSTANCE_*
     uint triangleCount;
+};
+
+struct InstanceRows {
+    vec4 row0; // as in GpuInstance
+    vec4 row1;
+    vec4 row2;
 };
 
 // A material's use of a texture. The image lies in one of four layered arrays, resized to their size.

@@ -35,6 +35,10 @@ void put(GpuTextureRef ref) { FIELDS_GpuTextureRef(PUT_REF) }
 #define PUT_GRID(field) put(grid.field);
 void put(GridConstants grid) { FIELDS_GridConstants(PUT_GRID) }
 
+void put(uvec4 v) { put(v.xyz); put(v.w); }
+#define PUT_SAMPLING(field) put(sampling.field);
+void put(SamplingConstants sampling) { FIELDS_SamplingConstants(PUT_SAMPLING) }
+
 #define PUT(field) put(source[1].field);
 
 void main() {

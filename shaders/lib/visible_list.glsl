@@ -1,0 +1,37 @@
+// Reading the visible light lists of the previous frame's tiles, and packing their entries.
+#ifndef KILOLUX_LIB_VISIBLE_LIST_GLSL
+#define KILOLUX_LIB_VISIBLE_LIST_GLSL
+#include "frame.glsl"
+
+struct VisibleEntry {
+    uint slot;
+    uint epoch;  // low 4 bits of the slot's
+    uint recent; // mask of the quarters of the light's unit square that were seen in this window of frames
+    uint older;  // and in the one before
+    uint age;    // frames since a sample was last seen
+};
+
+uint packEntry(VisibleEntry e) {
+    return e.slot | e.epoch << ENTRY_EPOCH_SHIFT | e.recent << ENTRY_RECENT_SHIFT | e.older << ENTRY_OLDER_SHIFT |
+           e.age << ENTRY_AGE_SHIFT;
+}
+
+VisibleEntry unpackEntry(uint word) {
+    return VisibleEntry(word & ENTRY_SLOT_MASK, word >> ENTRY_EPOCH_SHIFT & 15u, word >> ENTRY_RECENT_SHIFT & 15u,
+                        word >> ENTRY_OLDER_SHIFT & 15u, word >> ENTRY_AGE_SHIFT & 15u);
+}
+
+// First texel of a tile's list. Tiles outside are clamped: a pixel that comes from beyond the border still gets
+// the nearest list.
+uint listTexel(ivec2 tile, uvec2 tiles) {
+    uvec2 at = uvec2(clamp(tile, ivec2(0), ivec2(tiles) - 1));
+    return (at.y * tiles.x + at.x) * LIST_TEXELS;
+}
+
+// One of the four tiles nearest to a uv of the previous frame, by bilinear chance: borders between lists dissolve.
+uint listTexelByChance(vec2 uv, vec2 numbers) {
+    vec2 tileAt = uv * vec2(frame.previousSize) / float(LIST_TILE_PX) - 0.5;
+    return listTexel(ivec2(floor(tileAt + numbers)), frame.previousTiles);
+}
+
+#endif

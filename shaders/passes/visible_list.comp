@@ -1,0 +1,161 @@
+#version 460
+// The visible light list of each 8 x 8 tile for the next frame: lights of which a sample was visible, sorted by slot,
+// with the quarters of the light that were seen (the MegaLights talk, SIGGRAPH 2025, "Sample Guiding" and "Area Light
+// Guiding"; the smallest slot by subgroup minimum is from Sousa and Geffroy, "The devil is in the details", 2016).
+// Entries of the previous list stay for some frames without being seen. A workgroup is one subgroup, so that no
+// barriers are needed; results do not depend on its size.
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#include "shared/features.h"
+#include "lib/frame.glsl"
+#include "lib/light_access.glsl"
+#include "lib/reprojection.glsl"
+#include "lib/sample.glsl"
+#include "lib/tile_order.glsl"
+#include "lib/visible_list.glsl"
+
+layout(constant_id = CHOICE_LANES) const int kLanes = 8;
+const int kPixelsPerLane = 64 / kLanes;
+
+layout(local_size_x_id = CHOICE_LANES) in;
+uniform usampler2DArray samples;
+uniform usampler2DArray rayResults;
+uniform usamplerBuffer visibleLists; // of the previous frame
+layout(scalar) writeonly buffer VisibleListsOut {
+    uvec2 listsOut[];
+};
+layout(scalar) buffer Counters {
+    uint counters[];
+};
+
+const uint kNone = 0xffffffffu;
+const uint kRoom = 128u; // of one layer's 64 samples and the entries before, which are at most 33 + 64 long
+
+shared uvec2 entries[2][kRoom]; // in turn the list so far and the next one
+
+// The entry as it goes into this frame: older by one, windows turned, and nothing believed of an edited light.
+uvec2 carriedEntry(uvec2 texel) {
+    VisibleEntry e = unpackEntry(texel.x);
+    uvec2 none = uvec2(kNone, 0u);
+    if (e.slot >= frame.lightCount) return none;
+    uint typeFlags = loadLightHot(e.slot).typeFlags;
+    if ((typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) != 0u) return none;
+    e.age = min(e.age + 1u, 15u);
+    if (e.age > frame.sampling.listMemory) return none;
+    uint epoch = typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
+    bool same = epoch == e.epoch;
+    if (frame.sampling.noiseFrame % ENTRY_WINDOW == 0u) {
+        e.older = e.recent;
+        e.recent = 0u;
+    }
+    e.older = same ? e.older : 0u;
+    e.recent = same ? e.recent : 0u;
+    e.epoch = epoch;
+    return uvec2(packEntry(e), texel.y - texel.y / 4u);
+}
+
+// What a sample adds: x = slot, y = energy << 4 | quarter. kNone for what was not seen.
+uvec2 seenSample(uvec2 pixel, uint layer) {
+    if (any(greaterThanEqual(pixel, frame.size))) return uvec2(kNone, 0u);
+    uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
+    if ((result & RAY_STATE_MASK) != RAY_VISIBLE) return uvec2(kNone, 0u);
+    StoredSample s = unpackSample(texelFetch(samples, ivec3(pixel, layer), 0));
+    if (s.list == LIST_DIRECTIONAL) return uvec2(kNone, 0u);
+    uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
+    return uvec2(s.slot, energy << 4u | 1u << (result >> RAY_QUARTER_SHIFT & 3u));
+}
+
+// Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
+uint mergeLayer(uvec2 tile, uint layer, uint from, uint count) {
+    uint lane = gl_LocalInvocationID.x;
+    uvec2 seen[kPixelsPerLane];
+    for (int i = 0; i < kPixelsPerLane; ++i) {
+        uint at = uint(i * kLanes) + lane;
+        seen[i] = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer);
+    }
+    uint made = 0u, next = 0u, least = 0u;
+    for (;;) {
+        uint mine = kNone;
+        for (int i = 0; i < kPixelsPerLane; ++i)
+            if (seen[i].x >= least) mine = min(mine, seen[i].x);
+        uvec2 before = next < count ? entries[from][next] : uvec2(kNone, 0u);
+        uint beforeSlot = before.x == kNone ? kNone : before.x & ENTRY_SLOT_MASK;
+        uint slot = min(subgroupMin(mine), beforeSlot);
+        if (slot == kNone) break;
+        uint quarters = 0u, energy = 0u;
+        for (int i = 0; i < kPixelsPerLane; ++i) {
+            if (seen[i].x != slot) continue;
+            quarters |= seen[i].y & 15u;
+            energy += seen[i].y >> 4u;
+        }
+        quarters = subgroupOr(quarters);
+        energy = subgroupAdd(energy);
+        VisibleEntry e = VisibleEntry(slot, 0u, 0u, 0u, 0u);
+        if (beforeSlot == slot) {
+            e = unpackEntry(before.x);
+            energy = max(energy, before.y);
+            ++next;
+        } else {
+            e.epoch = loadLightHot(slot).typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
+        }
+        if (quarters != 0u) {
+            e.recent |= quarters;
+            e.age = 0u;
+        }
+        if (lane == 0u) entries[1u - from][made] = uvec2(packEntry(e), energy);
+        ++made;
+        least = slot + 1u;
+    }
+    subgroupMemoryBarrierShared();
+    subgroupBarrier();
+    return made;
+}
+
+// Takes out the entry of least energy, of equal ones the last, by moving up what is behind it.
+void dropWeakest(uint from, uint count) {
+    uint weakest = 0u;
+    for (uint i = 1u; i < count; ++i)
+        if (entries[from][i].y <= entries[from][weakest].y) weakest = i;
+    for (uint i = weakest; i + 1u < count; ++i)
+        entries[from][i] = entries[from][i + 1u];
+}
+
+void main() {
+    uint lane = gl_LocalInvocationID.x;
+    uvec2 tile = interleavedTile(gl_WorkGroupID.x, frame.tiles, frame.tileChunks);
+    uvec2 middle = min(tile * LIST_TILE_PX + LIST_TILE_PX / 2u, frame.size - 1u);
+    Reprojection before = reproject(middle);
+    uint first = listTexel(ivec2(before.uv * vec2(frame.previousSize) / float(LIST_TILE_PX)), frame.previousTiles);
+    uint stored = frame.historyValid != 0u ? min(texelFetch(visibleLists, int(first)).x, LIST_CAPACITY) : 0u;
+    for (uint i = lane; i < stored; i += uint(kLanes))
+        entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy);
+    subgroupMemoryBarrierShared();
+    subgroupBarrier();
+    uint count = 0u, from = 0u;
+    if (lane == 0u) {
+        for (uint i = 0u; i < stored; ++i)
+            if (entries[1][i].x != kNone) entries[0][count++] = entries[1][i];
+    }
+    count = subgroupMax(count);
+    subgroupMemoryBarrierShared();
+    subgroupBarrier();
+    uint wanted = min(frame.sampling.listLength, LIST_CAPACITY), lost = 0u;
+    for (uint layer = 0u; layer < frame.sampling.rays; ++layer) {
+        count = mergeLayer(tile, layer, from, count);
+        from = 1u - from;
+        while (count > wanted) {
+            if (lane == 0u) dropWeakest(from, count);
+            --count;
+            ++lost;
+        }
+        subgroupMemoryBarrierShared();
+        subgroupBarrier();
+    }
+    uint out0 = (tile.y * frame.tiles.x + tile.x) * LIST_TEXELS;
+    if (lane == 0u) {
+        listsOut[out0] = uvec2(count, lost);
+        atomicAdd(counters[COUNTER_LIST_ENTRIES], count);
+        if (lost > 0u) atomicAdd(counters[COUNTER_LIST_OVERFLOW], lost);
+    }
+    for (uint i = lane; i < count; i += uint(kLanes))
+        listsOut[out0 + 1u + i] = entries[from][i];
+}
