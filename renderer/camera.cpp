@@ -47,8 +47,8 @@ glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene) {
 
 namespace {
 
-// Reversed depth: near plane at 1, far at 0. Vulkan's clip space has y down. `half`: half extents of the picture
-// plane at distance 1, or in metres for orthographic cameras.
+// Reversed depth: near plane at 1, far at 0. Vulkan's clip space has y down. `half`: half extents of the
+// picture plane at distance 1, or in metres for orthographic cameras.
 glm::dmat4 clipFromCamera(const Camera& camera, glm::dvec2 half, glm::dvec2 shift) {
     glm::dmat4 clip(0.0);
     clip[0][0] = 1.0 / half.x;
@@ -92,7 +92,8 @@ void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::d
         glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0), glm::dvec4(position, 1));
     const glm::dmat4 cameraFromWorld = glm::inverse(world);
     const glm::dvec2 shift(-2.0 * jitterPx.x / widthPx, -2.0 * jitterPx.y / heightPx);
-    frame.clipFromWorld = glm::mat4(clipFromCamera(camera, glm::dvec2(halfX, halfY), shift) * cameraFromWorld);
+    frame.clipFromWorld =
+        glm::mat4(clipFromCamera(camera, glm::dvec2(halfX, halfY), shift) * cameraFromWorld);
     frame.steadyClipFromWorld =
         glm::mat4(clipFromCamera(camera, glm::dvec2(halfX, halfY), glm::dvec2(0.0)) * cameraFromWorld);
     frame.depthRow = glm::vec4(glm::dvec4(-back, glm::dot(back, position)));

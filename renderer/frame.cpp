@@ -4,8 +4,8 @@
 namespace kilolux {
 
 FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
-    : resolveGBuffer(resources), depthPyramid(resources), lightGrid(resources),
-      composite(resources), accumulate(resources), toneMap(resources) {
+    : resolveGBuffer(resources), depthPyramid(resources), lightGrid(resources), composite(resources),
+      accumulate(resources), toneMap(resources) {
     if (plan.producer == GBufferProducer::Raster) {
         rasterVisibility = std::make_unique<RasterVisibilityPass>(resources);
     } else {

@@ -21,7 +21,7 @@ struct FramePlan {
     bool transparent = false; // the scene has transparent surfaces
     bool halfSampling = false;
     std::uint32_t choices = 1; // samples of one evaluation of the candidate lights
-    bool writeLists = true; // false: frozen
+    bool writeLists = true;    // false: frozen
     bool stochastic() const { return method == Method::Stochastic; }
 };
 

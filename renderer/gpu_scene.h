@@ -49,7 +49,7 @@ class GpuScene {
     gpu::Bindings surfaceBindings() const;                     // shaders/lib/surface.glsl, geometry included
     const GpuRayWorld& rayWorld() const { return *rayWorld_; } // shaders/lib/trace.glsl and alpha.glsl
     gpu::Bindings lightBindings() const;                       // shaders/lib/light_access.glsl
-    gpu::Binding environmentBrdf() const; // shaders/lib/environment_brdf_table.glsl
+    gpu::Binding environmentBrdf() const;                      // shaders/lib/environment_brdf_table.glsl
     const gpu::Buffer& directionalSlots() const { return directionalSlots_; }
     std::uint32_t directionalCount() const { return directionalCount_; }
     const gpu::Buffer& previousInstances() const { return previousInstanceBuffer_; } // where some move

@@ -248,9 +248,8 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     setCamera(constants, camera, gpuScene->anchor(), widthPx, heightPx, jitter);
     constants.tileChunks = device.isCpu() ? std::max(1u, std::thread::hardware_concurrency()) : 1u;
     constants.frame = index;
-    constants.sampling.noiseFrame = options.settings.freezeNoise && frozen(index)
-                                        ? std::uint32_t(options.settings.freezeFrame)
-                                        : index;
+    constants.sampling.noiseFrame =
+        options.settings.freezeNoise && frozen(index) ? std::uint32_t(options.settings.freezeFrame) : index;
     constants.seed = options.seed;
     constants.lightCount = gpuScene->lightCount();
     constants.exposure = float(exposureFromEv100(exposureEv100));
@@ -263,8 +262,8 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
 
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
-    FrameContext context{commands,  *gpuScene,     *targets, frameBuffer,
-                         constants, counterBuffer, *grid,    features, lists.get()};
+    FrameContext context{commands,      *gpuScene, *targets, frameBuffer, constants,
+                         counterBuffer, *grid,     features, lists.get()};
     plan.writeLists = !(frozen(index) && options.settings.freezeLists);
     recordFrame(context, *passes, plan, world, index, float(0.25 * sceneExtentM));
     commands.submitAndWait();
@@ -359,8 +358,9 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
     describeFeatures(features, statistics);
     describePasses(times,
-                   {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples", "compact_rays",
-                    "trace_samples", "visible_list", "shade_samples", "denoise_temporal", "denoise_spatial"},
+                   {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples",
+                    "compact_rays", "trace_samples", "visible_list", "shade_samples", "denoise_temporal",
+                    "denoise_spatial"},
                    statistics);
     describeMemory(device.memory(), statistics);
     return picture;

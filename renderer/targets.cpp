@@ -6,15 +6,14 @@
 
 namespace kilolux {
 
-Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, const TargetNeeds& needs) {
+Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx,
+                 const TargetNeeds& needs) {
     constexpr VkImageUsageFlags storage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     constexpr VkImageUsageFlags attachment = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     const auto make = [&](const char* name, VkFormat format, VkImageUsageFlags more = 0) {
-        return gpu::Image(device, {.name = name,
-                                   .format = format,
-                                   .width = widthPx,
-                                   .height = heightPx,
-                                   .usage = storage | more});
+        return gpu::Image(
+            device,
+            {.name = name, .format = format, .width = widthPx, .height = heightPx, .usage = storage | more});
     };
     visibility = make("visibility", VK_FORMAT_R32G32_UINT, needs.raster ? attachment : 0);
     if (needs.raster) {
@@ -42,7 +41,8 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
         previousDepth = make("previousDepth", VK_FORMAT_R32_SFLOAT);
         previousNormals = make("previousNormals", VK_FORMAT_R32G32_UINT);
     }
-    const auto makeLayers = [&](const char* name, VkFormat format, std::uint32_t layers, std::uint32_t divisor) {
+    const auto makeLayers = [&](const char* name, VkFormat format, std::uint32_t layers,
+                                std::uint32_t divisor) {
         return gpu::Image(device, {.name = name,
                                    .format = format,
                                    .width = (widthPx + divisor - 1) / divisor,
@@ -72,9 +72,9 @@ void Targets::turnHistory() {
 std::vector<const gpu::Image*> Targets::all() const {
     std::vector<const gpu::Image*> result;
     for (const gpu::Image* image :
-         {&visibility, &rasterDepth, &gDepth, &gNormals, &gMaterial, &gEmissive, &pyramid, &motion, &previousDepth,
-          &previousNormals, &samplesHalf, &samples, &rayResults, &litDiffuse, &litSpecular, &lightCounts,
-          &sceneColor, &meanColor, &viewValues, &display}) {
+         {&visibility,  &rasterDepth,   &gDepth,          &gNormals,    &gMaterial,  &gEmissive,  &pyramid,
+          &motion,      &previousDepth, &previousNormals, &samplesHalf, &samples,    &rayResults, &litDiffuse,
+          &litSpecular, &lightCounts,   &sceneColor,      &meanColor,   &viewValues, &display}) {
         if (*image) result.push_back(image);
     }
     return result;

@@ -10,10 +10,10 @@ namespace kilolux {
 
 // Which images a plan needs.
 struct TargetNeeds {
-    bool raster = false;    // the raster producer
-    bool debugView = false; // a view other than the picture
-    bool history = false;   // something is looked up in the previous frame
-    std::uint32_t rays = 0; // samples per pixel of the stochastic method; 0: another method
+    bool raster = false;           // the raster producer
+    bool debugView = false;        // a view other than the picture
+    bool history = false;          // something is looked up in the previous frame
+    std::uint32_t rays = 0;        // samples per pixel of the stochastic method; 0: another method
     std::uint32_t halfChoices = 0; // samples per half-resolution pixel; 0: full resolution
     bool denoised = false;
 };
@@ -21,15 +21,15 @@ struct TargetNeeds {
 struct Targets {
     Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, const TargetNeeds& needs);
 
-    gpu::Image visibility;  // RG32UI: instance, primitive; 0xffffffff twice without a surface
-    gpu::Image rasterDepth; // D32, reversed; only with the raster producer
-    gpu::Image gDepth;      // R32F: linear depth, metres
-    gpu::Image gNormals;    // RG32UI, see shaders/lib/gbuffer.glsl
-    gpu::Image gMaterial;   // RG32UI
-    gpu::Image gEmissive;   // RGBA16F, exposed
-    gpu::Image pyramid;     // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
-    gpu::Image litDiffuse;  // RGBA32F, exposed, demodulated by the diffuse albedo
-    gpu::Image litSpecular; // RGBA32F, exposed; of the stochastic method without the environment BRDF
+    gpu::Image visibility;    // RG32UI: instance, primitive; 0xffffffff twice without a surface
+    gpu::Image rasterDepth;   // D32, reversed; only with the raster producer
+    gpu::Image gDepth;        // R32F: linear depth, metres
+    gpu::Image gNormals;      // RG32UI, see shaders/lib/gbuffer.glsl
+    gpu::Image gMaterial;     // RG32UI
+    gpu::Image gEmissive;     // RGBA16F, exposed
+    gpu::Image pyramid;       // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
+    gpu::Image litDiffuse;    // RGBA32F, exposed, demodulated by the diffuse albedo
+    gpu::Image litSpecular;   // RGBA32F, exposed; of the stochastic method without the environment BRDF
     gpu::Image motion;        // RGBA16F: see shaders/lib/reprojection.glsl; only with history
     gpu::Image previousDepth; // gDepth of the frame before
     gpu::Image previousNormals;

@@ -11,9 +11,10 @@ VisibleLists::VisibleLists(gpu::Device& device, std::uint32_t widthPx, std::uint
     const VkDeviceSize tiles = VkDeviceSize((widthPx + LIST_TILE_PX - 1) / LIST_TILE_PX) *
                                ((heightPx + LIST_TILE_PX - 1) / LIST_TILE_PX);
     for (gpu::Buffer& list : lists_) {
-        list = gpu::Buffer(device, {"visibleLists", tiles * LIST_TEXELS * sizeof(glm::uvec2),
-                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                    gpu::MemoryUse::DeviceOnly, "visible lists", VK_FORMAT_R32G32_UINT});
+        list = gpu::Buffer(device,
+                           {"visibleLists", tiles * LIST_TEXELS * sizeof(glm::uvec2),
+                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                            gpu::MemoryUse::DeviceOnly, "visible lists", VK_FORMAT_R32G32_UINT});
     }
 }
 

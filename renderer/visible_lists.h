@@ -1,5 +1,5 @@
-// The buffers of stochastic light sampling that outlive a frame: the visible light lists of this frame and of the
-// one before, and the slots of the directional lights.
+// The buffers of stochastic light sampling that outlive a frame: the visible light lists of this frame and of
+// the one before, and the slots of the directional lights.
 #pragma once
 
 #include "renderer/gpu/resource.h"

@@ -21,8 +21,8 @@ gpu::Bindings receiverBindings(const FrameContext& frame) {
                    frame.scene.lightBindings()});
 }
 
-// The reservoirs of a pixel live in registers. GLSL cannot pass structs with arrays that a specialization constant
-// sizes, so their number is a definition: three variants of the shader.
+// The reservoirs of a pixel live in registers. GLSL cannot pass structs with arrays that a specialization
+// constant sizes, so their number is a definition: three variants of the shader.
 std::string sampleRoom(std::uint32_t choices) {
     return fmt::format("KX_MAX_SAMPLES {}", choices <= 1 ? 1 : choices <= 4 ? 4 : 64);
 }
