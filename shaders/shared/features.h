@@ -25,8 +25,6 @@ const int CHOICE_ESTIMATOR = 33;         // ESTIMATOR_*
 const int CHOICE_VIEW = 34;              // VIEW_* of shared/views.h
 const int CHOICE_TONE_MAP = 35;          // TONE_MAP_*
 const int CHOICE_WHITE_NOISE = 36;       // white noise instead of blue (lib/noise.glsl)
-
-const int CHOICE_WHITE_NOISE = 36;       // white instead of blue noise
 const int CHOICE_HALF_SAMPLING = 37;     // HALF_*
 const int CHOICE_DEMODULATED = 38;       // specular light is without the environment BRDF
 const int CHOICE_LANES = 40;             // of a subgroup, for passes whose workgroup is one; see gpu/pass.h
