@@ -3,6 +3,7 @@
 #pragma once
 
 #include "shaders/shared/gpu_light.h"
+#include "shaders/shared/noise.h"
 
 #include <glm/glm.hpp>
 
@@ -13,6 +14,8 @@ using vec2 = glm::vec2;
 using vec3 = glm::vec3;
 using vec4 = glm::vec4;
 using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
+using uvec4 = glm::uvec4;
 using mat3 = glm::mat3;
 using shared::LightHot;
 

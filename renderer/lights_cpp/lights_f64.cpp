@@ -36,6 +36,7 @@ static vec4 ltcLookup1(vec2 uv) {
 #include "shaders/lights/light.glsl"
 #include "shaders/math/area_mask.glsl"
 #include "shaders/math/hash.glsl"
+#include "shaders/math/noise_tile.glsl"
 #include "shaders/math/selection.glsl"
 #undef float
 
