@@ -23,8 +23,9 @@ namespace kilolux::gltf {
 using Json = nlohmann::json;
 using Bytes = std::vector<std::uint8_t>;
 
-// Thrown at the place that finds the fault, caught once in importGltf: a Result passed through every helper
-// would drown the code that reads the file. `text` is "place: what was expected".
+// Thrown at the place that finds the fault, caught in importGltf, or earlier where only a part of the file is
+// given up: a Result passed through every helper would drown the code that reads the file. `text` is "place:
+// what was expected".
 struct ImportFailure {
     std::string text;
 };
@@ -117,11 +118,12 @@ std::span<const std::uint8_t> bufferViewBytes(const ImportContext& context, int 
 // Lets tinygltf turn the checked JSON into its structures; no file is touched.
 tinygltf::Model parseModel(const ImportContext& context);
 
-// --- gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_lights.cpp ---
+// --- gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_animations.cpp, gltf_lights.cpp ---
 
 void importMaterials(ImportContext& context, const tinygltf::Model& model);
 void importMeshes(ImportContext& context, const tinygltf::Model& model);
 void importNodes(ImportContext& context, const tinygltf::Model& model);
-void importLights(ImportContext& context); // needs world transforms
+void importAnimations(ImportContext& context, const tinygltf::Model& model); // needs the nodes
+void importLights(ImportContext& context);                                   // needs world transforms
 
 } // namespace kilolux::gltf

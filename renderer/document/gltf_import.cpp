@@ -20,6 +20,7 @@ Scene importScene(gltf::ImportContext& context) {
         importMaterials(context, model);
         importNodes(context, model);
         importMeshes(context, model);
+        importAnimations(context, model);
     }
     importLights(context);
     if (triangleCount(context.scene) == 0)

@@ -299,6 +299,7 @@ void LightImporter::importNode(int node) {
     const Json* ours = allExtras ? findObject(*allExtras, "kilolux") : nullptr;
     if (!def) return;
     LightNode light;
+    light.id = context_.scene.lights.size() + 1;
     light.node = node;
     if (ours) {
         const Fields extras(context_, *ours, place + "/extras/kilolux");

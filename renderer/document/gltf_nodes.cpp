@@ -2,41 +2,31 @@
 #include "renderer/document/gltf_model.h"
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace kilolux::gltf {
 
 namespace {
 
-bool isFinite(const glm::dmat4& matrix) {
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            // Products of two transforms must stay finite in single precision as well.
-            if (!(std::abs(matrix[column][row]) < 1e18)) return false;
-        }
-    }
-    return true;
+glm::dmat4 matrixOf(const tinygltf::Node& node) {
+    glm::dmat4 matrix(1.0);
+    for (int i = 0; i < 16; ++i)
+        matrix[i / 4][i % 4] = node.matrix[i];
+    return matrix;
 }
 
-glm::dmat4 localTransform(const tinygltf::Node& node, const std::string& place) {
-    glm::dmat4 matrix(1.0);
-    if (node.matrix.size() == 16) {
-        for (int i = 0; i < 16; ++i)
-            matrix[i / 4][i % 4] = node.matrix[i];
-        return matrix;
-    }
-    if (node.translation.size() == 3) {
-        matrix = glm::translate(matrix, {node.translation[0], node.translation[1], node.translation[2]});
-    }
+Trs trsOf(const tinygltf::Node& node, const std::string& place) {
+    Trs trs;
+    if (node.translation.size() == 3)
+        trs.translation = {node.translation[0], node.translation[1], node.translation[2]};
     if (node.rotation.size() == 4) {
         const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
         const double length = glm::length(rotation);
         if (!(length > 1e-12) || !std::isfinite(length))
             fail(place + "/rotation", "expected a unit quaternion");
-        matrix *= glm::mat4_cast(rotation / length);
+        trs.rotation = rotation / length;
     }
-    if (node.scale.size() == 3) matrix = glm::scale(matrix, {node.scale[0], node.scale[1], node.scale[2]});
-    return matrix;
+    if (node.scale.size() == 3) trs.scale = {node.scale[0], node.scale[1], node.scale[2]};
+    return trs;
 }
 
 void readNodes(ImportContext& context, const tinygltf::Model& model) {
@@ -45,11 +35,13 @@ void readNodes(ImportContext& context, const tinygltf::Model& model) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::string place = fmt::format("/nodes/{}", i);
         const tinygltf::Node& source = model.nodes[i];
+        nodes[i].id = i + 1;
         nodes[i].name = source.name;
         nodes[i].mesh = source.mesh;
         nodes[i].visible = false;
-        nodes[i].localFromNode = localTransform(source, place);
-        if (!isFinite(nodes[i].localFromNode)) fail(place, "expected a finite transform");
+        if (source.matrix.size() != 16) nodes[i].restTrs = trsOf(source, place);
+        nodes[i].localFromNode = nodes[i].restTrs ? matrixFrom(*nodes[i].restTrs) : matrixOf(source);
+        if (!fitsSinglePrecision(nodes[i].localFromNode)) fail(place, "expected a finite transform");
         for (const int child : source.children) {
             if (nodes[child].parent >= 0) {
                 fail(place + "/children", "expected one parent for each node, node {} has two: {} and {}",
@@ -93,20 +85,6 @@ void markVisible(ImportContext& context, const tinygltf::Model& model) {
     visit([](Node& node) { node.visible = true; });
 }
 
-// The node's frame without scale or mirroring: a camera looks down -Z with +Y up whatever its parents do.
-glm::dmat4 rigid(const glm::dmat4& worldFromNode) {
-    const glm::dvec3 z = glm::dvec3(worldFromNode[2]), y = glm::dvec3(worldFromNode[1]);
-    glm::dmat4 result(1.0);
-    const glm::dvec3 x = glm::cross(y, z);
-    if (glm::length(z) > 0.0 && glm::length(x) > 0.0) {
-        result[2] = glm::dvec4(glm::normalize(z), 0.0);
-        result[0] = glm::dvec4(glm::normalize(x), 0.0);
-        result[1] = glm::dvec4(glm::cross(glm::dvec3(result[2]), glm::dvec3(result[0])), 0.0);
-    }
-    result[3] = glm::dvec4(glm::dvec3(worldFromNode[3]), 1.0);
-    return result;
-}
-
 Camera readCamera(const tinygltf::Camera& source) {
     Camera camera;
     camera.orthographic = source.type == "orthographic";
@@ -133,7 +111,9 @@ void readCameras(ImportContext& context, const tinygltf::Model& model) {
         // Artists name the camera object, which exporters write as the node.
         camera.name = !node.name.empty() ? node.name : model.cameras[index].name;
         if (camera.name.empty()) camera.name = fmt::format("camera {}", context.scene.cameras.size());
-        camera.worldFromCamera = rigid(node.worldFromNode);
+        camera.id = context.scene.cameras.size() + 1;
+        camera.node = static_cast<int>(i);
+        camera.worldFromCamera = rigidFrame(node.worldFromNode);
         context.scene.cameras.push_back(std::move(camera));
     }
 }
@@ -145,14 +125,12 @@ void importNodes(ImportContext& context, const tinygltf::Model& model) {
     markVisible(context, model);
     updateWorldTransforms(context.scene);
     for (std::size_t i = 0; i < context.scene.nodes.size(); ++i) {
-        if (!isFinite(context.scene.nodes[i].worldFromNode)) {
+        if (!fitsSinglePrecision(context.scene.nodes[i].worldFromNode)) {
             fail(fmt::format("/nodes/{}", i), "expected a finite transform in the world");
         }
     }
     readCameras(context, model);
-    if (context.json.contains("skins") || context.json.contains("animations")) {
-        context.warn("/", "skins and animations are shown in their rest pose");
-    }
+    if (context.json.contains("skins")) context.warn("/skins", "skins are shown in their rest pose");
 }
 
 } // namespace kilolux::gltf

@@ -58,6 +58,8 @@ class Checker {
     void checkMaterial(Json& material, const std::string& pointer);
     void checkTextureInfo(Json& object, const char* key, const std::string& pointer);
     void checkCamera(Json& camera, const std::string& pointer);
+    void checkAnimation(Json& animation, const std::string& pointer);
+    bool checkTarget(Json& channel, const std::string& pointer);
     void checkAsset();
     void checkCounts();
 
@@ -214,6 +216,10 @@ void Checker::checkMesh(Json& mesh, const std::string& pointer) {
         const std::string primitivePointer = fmt::format("{}/primitives/{}", pointer, i);
         if (!primitive.is_object()) fail(primitivePointer, "expected an object");
         checkObject(primitive, primitivePointer, kPrimitiveRules, Fault::Essential);
+        if (primitive.contains("targets")) {
+            context_.warnOnce("morph targets", primitivePointer,
+                              "morph targets are shown in their rest pose");
+        }
         Json* attributes = memberObject(primitive, "attributes", primitivePointer, Fault::Essential);
         if (!attributes) fail(primitivePointer, "expected the property 'attributes'");
         for (auto& [name, value] : attributes->items()) {
@@ -265,6 +271,36 @@ void Checker::checkCamera(Json& camera, const std::string& pointer) {
     if (!usable) camera = Json{{"type", "perspective"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.01}}}};
 }
 
+// Channels and samplers that cannot be used become null, so that the others keep their index.
+void Checker::checkAnimation(Json& animation, const std::string& pointer) {
+    checkObject(animation, pointer, kNameRules, Fault::Replaceable);
+    for (const char* key : {"channels", "samplers"}) {
+        const auto it = animation.find(key);
+        if (it != animation.end() && it->is_array()) continue;
+        report(pointer, fmt::format("an array '{}'", key), Fault::Replaceable);
+        animation["channels"] = animation["samplers"] = Json::array();
+    }
+    for (const auto& [key, rules] : {std::pair{"channels", std::span<const Rule>(kAnimationChannelRules)},
+                                     std::pair{"samplers", std::span<const Rule>(kAnimationSamplerRules)}}) {
+        Json& entries = animation[key];
+        for (std::size_t i = 0; i < entries.size(); ++i) {
+            const std::string place = fmt::format("{}/{}/{}", pointer, key, i);
+            if (!entries[i].is_object()) report(place, "an object", Fault::Replaceable);
+            const bool usable =
+                entries[i].is_object() && checkObject(entries[i], place, rules, Fault::Replaceable);
+            if (!usable || (key == std::string_view("channels") && !checkTarget(entries[i], place)))
+                entries[i] = nullptr;
+        }
+    }
+}
+
+// Of an animation's channel.
+bool Checker::checkTarget(Json& channel, const std::string& pointer) {
+    if (!channel.contains("target")) report(pointer, "the property 'target'", Fault::Replaceable);
+    Json* target = memberObject(channel, "target", pointer, Fault::Replaceable);
+    return target && checkObject(*target, pointer + "/target", kAnimationTargetRules, Fault::Replaceable);
+}
+
 void Checker::checkAsset() {
     Json* asset = memberObject(root_, "asset", "", Fault::Essential);
     if (!asset) fail("/", "expected the property 'asset', which every glTF 2.0 file has");
@@ -284,7 +320,7 @@ void Checker::checkAsset() {
 void Checker::checkCounts() {
     static constexpr const char* kArrays[] = {"accessors", "buffers",   "bufferViews", "cameras",
                                               "images",    "materials", "meshes",      "nodes",
-                                              "samplers",  "textures",  "scenes"};
+                                              "samplers",  "textures",  "scenes",      "animations"};
     std::uint64_t entries = 0;
     for (const char* key : kArrays) {
         const auto it = root_.find(key);
@@ -328,6 +364,8 @@ void Checker::checkRoot() {
     forEach("textures", Fault::Replaceable, rulesFor(kTextureRules, Fault::Replaceable));
     forEach("materials", Fault::Replaceable, [this](Json& o, const std::string& p) { checkMaterial(o, p); });
     forEach("cameras", Fault::Replaceable, [this](Json& o, const std::string& p) { checkCamera(o, p); });
+    forEach("animations", Fault::Replaceable,
+            [this](Json& o, const std::string& p) { checkAnimation(o, p); });
     const Rule sceneRule{"scene", Kind::Index, Need::Optional, "scenes"};
     checkObject(root_, "", std::span(&sceneRule, 1), Fault::Essential);
 }

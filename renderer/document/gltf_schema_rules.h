@@ -111,6 +111,16 @@ inline constexpr Rule kTextureInfoRules[] = {
     {"scale", Kind::Number, Need::Optional, nullptr, -kMaxNumber, kMaxNumber},
     {"strength", Kind::Number, Need::Optional, nullptr, 0.0, 1.0},
 };
+inline constexpr Rule kAnimationChannelRules[] = {{"sampler", Kind::Integer, Need::Required}};
+inline constexpr Rule kAnimationTargetRules[] = {
+    {"node", Kind::Index, Need::Optional, "nodes"},
+    {"path", Kind::Text, Need::Required},
+};
+inline constexpr Rule kAnimationSamplerRules[] = {
+    {"input", Kind::Index, Need::Required, "accessors"},
+    {"output", Kind::Index, Need::Required, "accessors"},
+    {"interpolation", Kind::Text},
+};
 inline constexpr Rule kCameraRules[] = {{"type", Kind::Text, Need::Required}, {"name", Kind::Text}};
 inline constexpr double kTiny = std::numeric_limits<double>::min();
 inline constexpr Rule kPerspectiveRules[] = {

@@ -3,6 +3,8 @@
 #include "renderer/document/scene.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
 namespace kilolux {
@@ -29,6 +31,33 @@ void updateWorldTransforms(Scene& scene) {
             states[path.back()] = State::Done;
         }
     }
+}
+
+glm::dmat4 matrixFrom(const Trs& trs) {
+    const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), trs.translation);
+    return glm::scale(moved * glm::mat4_cast(trs.rotation), trs.scale);
+}
+
+bool fitsSinglePrecision(const glm::dmat4& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!(std::abs(matrix[column][row]) < 1e18)) return false;
+        }
+    }
+    return true;
+}
+
+glm::dmat4 rigidFrame(const glm::dmat4& worldFromNode) {
+    const glm::dvec3 z = glm::dvec3(worldFromNode[2]), y = glm::dvec3(worldFromNode[1]);
+    glm::dmat4 result(1.0);
+    const glm::dvec3 x = glm::cross(y, z);
+    if (glm::length(z) > 0.0 && glm::length(x) > 0.0) {
+        result[2] = glm::dvec4(glm::normalize(z), 0.0);
+        result[0] = glm::dvec4(glm::normalize(x), 0.0);
+        result[1] = glm::dvec4(glm::cross(glm::dvec3(result[2]), glm::dvec3(result[0])), 0.0);
+    }
+    result[3] = glm::dvec4(glm::dvec3(worldFromNode[3]), 1.0);
+    return result;
 }
 
 namespace {

@@ -116,6 +116,10 @@ struct LightDef {
 
 // A node that carries a light. One node never carries two.
 struct LightNode {
+    // Names the light for edits, light slots and whatever remembers it from frame to frame: the import counts
+    // from 1 in file order, sorting, undo and redo keep it, and no two lights of a scene share one. 0 is a
+    // light made in memory that nobody has named yet.
+    std::uint64_t id = 0;
     int node = -1; // into Scene::nodes: its world transform places the light
     int def = -1;  // into Scene::lightDefs
     bool muted = false;
@@ -125,6 +129,7 @@ struct LightNode {
 // Cameras, nodes, scene
 
 struct Camera {
+    std::uint64_t id = 0; // among cameras, as LightNode::id
     std::string name;
     bool orthographic = false;
     double yfovRad = 0.8;
@@ -134,16 +139,31 @@ struct Camera {
     double xmagM = 1.0;          // orthographic half extents
     double ymagM = 1.0;
     glm::dmat4 worldFromCamera{1.0}; // rigid: scale removed
+    int node = -1; // into Scene::nodes: poseScene() takes the camera along with it; -1 stands on its own
 };
 
+// A node's transform in parts: scaled first, then turned, then moved.
+struct Trs {
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0}; // w, x, y, z; unit length
+    glm::dvec3 scale{1.0};
+};
+glm::dmat4 matrixFrom(const Trs& trs);
+
 struct Node {
+    std::uint64_t id = 0; // among nodes, as LightNode::id
     std::string name;
     int parent = -1;
     glm::dmat4 localFromNode{1.0}; // parent from this
+    // The same in parts, at rest: what poseScene() fills in where no animation speaks. Who moves an animated
+    // node changes both. Absent where the file gives a matrix: such a node cannot be animated.
+    std::optional<Trs> restTrs;
     glm::dmat4 worldFromNode{1.0}; // kept by updateWorldTransforms()
     int mesh = -1;
     bool visible = true; // reachable from the default scene
 };
+
+struct Animation; // animation.h
 
 struct Scene {
     std::filesystem::path sourcePath;
@@ -154,13 +174,21 @@ struct Scene {
     std::vector<Camera> cameras;
     std::vector<LightDef> lightDefs;
     std::vector<LightNode> lights; // in node order: the index is the light's slot on load
-    double exposureEv100 = 0.0;    // from scene extras.kilolux.exposureEv100, else derived by the renderer
+    std::vector<std::shared_ptr<const Animation>> animations;
+    double exposureEv100 = 0.0; // from scene extras.kilolux.exposureEv100, else derived by the renderer
     bool hasExposure = false;
     std::vector<std::string> warnings; // what the import could not honour, one line each
 };
 
 // Recomputes every node's worldFromNode from the local transforms.
 void updateWorldTransforms(Scene& scene);
+
+// Products of two such transforms stay finite in single precision as well.
+bool fitsSinglePrecision(const glm::dmat4& matrix);
+
+// The frame of a node without its scale or mirroring: a camera looks down -Z with +Y up whatever its parents
+// do.
+glm::dmat4 rigidFrame(const glm::dmat4& worldFromNode);
 
 // Bounds of all visible geometry in metres; {0,0,0} twice for a scene without triangles.
 struct Bounds {

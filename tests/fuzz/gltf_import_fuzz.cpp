@@ -1,5 +1,6 @@
 // libFuzzer target: any bytes as a .gltf or .glb file. What is opened must hold together, as the renderer
 // believes it.
+#include "renderer/document/animation.h"
 #include "renderer/document/gltf_import.h"
 #include "tests/fuzz/fuzz_input.h"
 
@@ -52,6 +53,21 @@ void checkScene(const kilolux::Scene& scene) {
     check(std::isfinite(bounds.max.x - bounds.min.x));
 }
 
+void checkAnimations(kilolux::Scene scene) {
+    for (const auto& animation : scene.animations) {
+        for (const auto& channel : animation->channels) {
+            check(channel.node >= 0 && channel.node < static_cast<int>(scene.nodes.size()));
+            check(channel.sampler >= 0 && channel.sampler < static_cast<int>(animation->samplers.size()));
+        }
+    }
+    const double durationS = kilolux::animationDurationS(scene);
+    for (const double timeS : {0.0, 0.3 * durationS, 0.5, durationS, -1e30, 1e300}) {
+        kilolux::poseScene(scene, timeS);
+        for (const auto& node : scene.nodes)
+            check(kilolux::fitsSinglePrecision(node.worldFromNode));
+    }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -60,6 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto scene = kilolux::importGltf(file.path());
     if (scene) {
         checkScene(scene.value());
+        checkAnimations(scene.value());
     } else {
         check(!scene.error().empty() && scene.error().find('\n') == std::string::npos);
     }

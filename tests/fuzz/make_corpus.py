@@ -75,6 +75,36 @@ def full_scene():
     }
 
 
+def animated_scene():
+    """The full scene with every path, interpolation and kind of output that an animation may have."""
+    data, document = full_scene()
+    views, accessors = list(document["bufferViews"]), list(document["accessors"])
+    samplers = []
+
+    def add(component, kind, count, part, **more):
+        nonlocal data
+        data += b"\0" * (-len(data) % 4)
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(part)})
+        data += part
+        accessors.append(dict({"bufferView": len(views) - 1, "componentType": component, "type": kind,
+                               "count": count}, **more))
+        return len(accessors) - 1
+
+    times = add(5126, "SCALAR", 3, struct.pack("<3f", 0, 0.5, 2))
+    cubic = [0, 0, 0, 1, 2, 3, 4, 0, 0] * 3
+    samplers.append({"input": times, "output": add(5126, "VEC3", 9, struct.pack("<27f", *cubic)),
+                     "interpolation": "CUBICSPLINE"})
+    turns = [0, 0, 0, 32767, 0, 23170, 0, 23170, 0, -32767, 0, 0]
+    samplers.append({"input": times, "output": add(5122, "VEC4", 3, struct.pack("<12h", *turns), normalized=True)})
+    samplers.append({"input": times, "output": add(5126, "VEC3", 3, struct.pack("<9f", *[1, 2, 3] * 3)),
+                     "interpolation": "STEP"})
+    targets = [(0, "translation", 0), (1, "rotation", 1), (2, "scale", 2), (0, "weights", 2), (3, "scale", 2)]
+    channels = [{"sampler": s, "target": {"node": node, "path": path}} for node, path, s in targets]
+    return data, dict(document, bufferViews=views, accessors=accessors, animations=[
+        {"name": "all", "channels": channels, "samplers": samplers},
+        {"channels": [{"sampler": 0, "target": {"node": 4, "path": "scale"}}], "samplers": samplers}])
+
+
 def binary(document, data):
     text = json.dumps(document).encode()
     text += b" " * (-len(text) % 4)
@@ -89,6 +119,10 @@ def main():
     files = {"full.glb": binary(dict(scene, buffers=[{"byteLength": len(data)}]), data)}
     embedded = dict(scene, buffers=[{"byteLength": len(data), "uri": data_uri(data)}])
     files["full.gltf"] = json.dumps(embedded).encode()
+    data, scene = animated_scene()
+    files["animated.glb"] = binary(dict(scene, buffers=[{"byteLength": len(data)}]), data)
+    embedded = dict(scene, buffers=[{"byteLength": len(data), "uri": data_uri(data)}])
+    files["animated.gltf"] = json.dumps(embedded).encode()
     files["empty.gltf"] = b'{"asset":{"version":"2.0"}}'
     files["cycle.gltf"] = b'{"asset":{"version":"2.0"},"nodes":[{"children":[1]},{"children":[0]}]}'
     files["huge_count.gltf"] = (b'{"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":'
