@@ -22,6 +22,7 @@ Scene importScene(gltf::ImportContext& context) {
         importMeshes(context, model);
         importAnimations(context, model);
     }
+    importSceneExtras(context);
     importLights(context);
     if (triangleCount(context.scene) == 0)
         context.warn("/nodes", "no visible node has a mesh with triangles");

@@ -60,6 +60,15 @@ glm::dmat4 rigidFrame(const glm::dmat4& worldFromNode) {
     return result;
 }
 
+glm::dvec3 groupFactor(const Scene& scene, const LightNode& light) {
+    if (light.group == 0) return glm::dvec3(1.0);
+    for (const LightGroup& group : scene.groups) {
+        if (group.id != light.group) continue;
+        return group.muted ? glm::dvec3(0.0) : group.tint * group.intensity * std::exp2(group.exposureEv);
+    }
+    return glm::dvec3(1.0);
+}
+
 namespace {
 
 const Mesh* visibleMesh(const Scene& scene, const Node& node) {

@@ -3,6 +3,8 @@
 // editor. Lengths are metres, angles radians, +Y up, right-handed; lights and cameras look down local -Z.
 #pragma once
 
+#include "renderer/document/copy_on_write.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -123,6 +125,17 @@ struct LightNode {
     int node = -1; // into Scene::nodes: its world transform places the light
     int def = -1;  // into Scene::lightDefs
     bool muted = false;
+    std::uint64_t group = 0; // LightGroup::id; 0 is none
+};
+
+// Lights that are dimmed, tinted and muted together.
+struct LightGroup {
+    std::uint64_t id = 0;    // among groups, as LightNode::id
+    std::string name;        // not empty, no two groups of a scene share one
+    double intensity = 1.0;  // factor on every member
+    double exposureEv = 0.0; // a second factor, 2^exposureEv
+    glm::dvec3 tint{1.0};    // a third one, per channel, linear Rec. 709
+    bool muted = false;
 };
 
 // ---------------------------------------------------------------------------------------------------------
@@ -170,10 +183,12 @@ struct Scene {
     std::vector<std::shared_ptr<const Image>> images;
     std::vector<Material> materials;
     std::vector<std::shared_ptr<const Mesh>> meshes;
-    std::vector<Node> nodes; // in file order; parents may come later
+    CopyOnWrite<Node> nodes; // in file order; parents may come later
     std::vector<Camera> cameras;
-    std::vector<LightDef> lightDefs;
-    std::vector<LightNode> lights; // in node order: the index is the light's slot on load
+    CopyOnWrite<LightDef> lightDefs;
+    CopyOnWrite<LightNode> lights; // by id, which is node order on load; the index is then the light's slot
+    CopyOnWrite<LightGroup> groups;
+    std::vector<Camera> bookmarks; // views that the user keeps; `node` is -1
     std::vector<std::shared_ptr<const Animation>> animations;
     double exposureEv100 = 0.0; // from scene extras.kilolux.exposureEv100, else derived by the renderer
     bool hasExposure = false;
@@ -189,6 +204,9 @@ bool fitsSinglePrecision(const glm::dmat4& matrix);
 // The frame of a node without its scale or mirroring: a camera looks down -Z with +Y up whatever its parents
 // do.
 glm::dmat4 rigidFrame(const glm::dmat4& worldFromNode);
+
+// What the light's group multiplies its colour with; 1 without a group, 0 in a muted one.
+glm::dvec3 groupFactor(const Scene& scene, const LightNode& light);
 
 // Bounds of all visible geometry in metres; {0,0,0} twice for a scene without triangles.
 struct Bounds {

@@ -1,0 +1,406 @@
+#include "renderer/document/edit_json.h"
+
+#include "renderer/document/light_words.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace kilolux {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kTargetWords[] = {"light", "definition", "node", "group", "bookmark", "scene"};
+
+Json numbers(const double* values, int count) {
+    Json array = Json::array();
+    for (int i = 0; i < count; ++i)
+        array.push_back(values[i]);
+    return array;
+}
+
+bool readNumbers(const Json& json, double* values, std::size_t count) {
+    const bool good = json.is_array() && json.size() == count &&
+                      std::all_of(json.begin(), json.end(), [](const Json& e) { return e.is_number(); });
+    for (std::size_t i = 0; good && i < count; ++i)
+        values[i] = json[i].get<double>();
+    return good;
+}
+
+// Reads members of an object by their kind and remembers the first that is wrong.
+class Members {
+  public:
+    explicit Members(const Json& json) : json_(json) {
+        if (!json.is_object()) wrong_ = "expected an object";
+    }
+
+    void read(const char* key, bool& target) {
+        if (const Json* value = find(key)) check(key, value->is_boolean(), "true or false", target, *value);
+    }
+    void read(const char* key, double& target) {
+        if (const Json* value = find(key)) check(key, value->is_number(), "a number", target, *value);
+    }
+    void read(const char* key, int& target) {
+        const Json* value = find(key);
+        if (!value) return;
+        const bool good = value->is_number_integer() && value->get<std::int64_t>() >= -1 &&
+                          value->get<std::int64_t>() < INT32_MAX;
+        check(key, good, "an index", target, *value);
+    }
+    void read(const char* key, std::uint64_t& target) {
+        if (const Json* value = find(key)) check(key, value->is_number_unsigned(), "an id", target, *value);
+    }
+    void read(const char* key, std::string& target) {
+        if (const Json* value = find(key)) check(key, value->is_string(), "text", target, *value);
+    }
+    void read(const char* key, std::optional<double>& target) {
+        const Json* value = find(key);
+        if (!value || value->is_null()) return;
+        double number = 0.0;
+        read(key, number);
+        target = number;
+    }
+    void read(const char* key, glm::dvec3& target) { readArray(key, &target.x, 3); }
+    void read(const char* key, glm::dmat4& target) { readArray(key, &target[0][0], 16); }
+    void read(const char* key, Trs& target) {
+        const Json* value = find(key);
+        if (!value) return;
+        Members parts(*value);
+        double rotation[4] = {target.rotation.x, target.rotation.y, target.rotation.z, target.rotation.w};
+        parts.read("translation", target.translation);
+        parts.readArray("rotation", rotation, 4);
+        parts.read("scale", target.scale);
+        target.rotation = glm::dquat(rotation[3], rotation[0], rotation[1], rotation[2]);
+        if (!parts.wrong_.empty() && wrong_.empty()) wrong_ = std::string(key) + "/" + parts.wrong_;
+    }
+    void read(const char* key, LightType& target) {
+        readWord(key, kLightTypeWords, &LightTypeWord::type, target);
+    }
+    void read(const char* key, LightUnit& target) {
+        readWord(key, kLightUnitWords, &LightUnitWord::unit, target);
+    }
+
+    const Json* find(const char* key) const {
+        if (!json_.is_object()) return nullptr;
+        const auto it = json_.find(key);
+        return it == json_.end() ? nullptr : &*it;
+    }
+    void fail(const std::string& message) {
+        if (wrong_.empty()) wrong_ = message;
+    }
+    std::optional<Error> error() const {
+        return wrong_.empty() ? std::nullopt : std::optional<Error>(Error{wrong_});
+    }
+
+  private:
+    template<typename T>
+    void check(const char* key, bool good, const char* what, T& target, const Json& value) {
+        if (good) {
+            target = value.get<T>();
+        } else {
+            fail(fmt::format("{}: expected {}", key, what));
+        }
+    }
+    void readArray(const char* key, double* target, std::size_t count) {
+        const Json* value = find(key);
+        if (value && !readNumbers(*value, target, count))
+            fail(fmt::format("{}: expected {} numbers", key, count));
+    }
+    template<typename Word, std::size_t N, typename T>
+    void readWord(const char* key, const Word (&words)[N], T Word::*member, T& target) {
+        const Json* value = find(key);
+        if (!value) return;
+        std::string known;
+        for (const Word& word : words) {
+            if (value->is_string() && value->get_ref<const std::string&>() == word.name) {
+                target = word.*member;
+                return;
+            }
+            known += (known.empty() ? "" : ", ") + std::string(word.name);
+        }
+        fail(fmt::format("{}: expected one of {}", key, known));
+    }
+
+    const Json& json_;
+    std::string wrong_;
+};
+
+Json optionalNumber(const std::optional<double>& number) {
+    return number ? Json(*number) : Json();
+}
+
+template<typename T>
+EditValue wholeFrom(const Json& json, std::optional<Error>& error) {
+    auto object = std::make_shared<T>();
+    error = fromJson(json, *object);
+    return Whole<T>(std::move(object));
+}
+
+EditValue objectFromJson(const Json& json, EditTarget target, std::optional<Error>& error) {
+    if (json.is_null()) return {};
+    switch (target) {
+    case EditTarget::Light:
+        return wholeFrom<LightNode>(json, error);
+    case EditTarget::Definition:
+        return wholeFrom<LightDef>(json, error);
+    case EditTarget::Node:
+        return wholeFrom<Node>(json, error);
+    case EditTarget::Group:
+        return wholeFrom<LightGroup>(json, error);
+    case EditTarget::Bookmark:
+        return wholeFrom<Camera>(json, error);
+    case EditTarget::Scene:
+        error = Error{"expected a field of the scene"};
+        break;
+    }
+    return {};
+}
+
+Json trsToJson(const Trs& trs) {
+    const double rotation[4] = {trs.rotation.x, trs.rotation.y, trs.rotation.z, trs.rotation.w};
+    return {{"translation", numbers(&trs.translation.x, 3)},
+            {"rotation", numbers(rotation, 4)},
+            {"scale", numbers(&trs.scale.x, 3)}};
+}
+
+// One list of members for both directions: `io(name, member)`.
+template<typename Io, typename Light>
+void visitLight(Io&& io, Light& light) {
+    io("id", light.id), io("node", light.node), io("def", light.def), io("muted", light.muted),
+        io("group", light.group);
+}
+template<typename Io, typename Def>
+void visitDef(Io&& io, Def& def) {
+    io("name", def.name), io("type", def.type), io("intensity", def.intensity), io("unit", def.unit),
+        io("color", def.color), io("temperatureK", def.temperatureK), io("rangeM", def.rangeM),
+        io("radiusM", def.radiusM), io("lengthM", def.lengthM), io("widthM", def.widthM),
+        io("heightM", def.heightM), io("innerConeRad", def.innerConeRad),
+        io("outerConeRad", def.outerConeRad), io("angularDiameterRad", def.angularDiameterRad),
+        io("barnDoorAngleRad", def.barnDoorAngleRad), io("barnDoorLengthM", def.barnDoorLengthM),
+        io("rayEndBiasM", def.rayEndBiasM), io("pointer", def.pointer);
+}
+template<typename Io, typename Group>
+void visitGroup(Io&& io, Group& group) {
+    io("id", group.id), io("name", group.name), io("intensity", group.intensity),
+        io("exposureEv", group.exposureEv), io("tint", group.tint), io("muted", group.muted);
+}
+template<typename Io, typename Cam>
+void visitCamera(Io&& io, Cam& camera) {
+    io("id", camera.id), io("name", camera.name), io("orthographic", camera.orthographic),
+        io("yfovRad", camera.yfovRad), io("aspect", camera.aspect), io("znearM", camera.znearM),
+        io("zfarM", camera.zfarM), io("xmagM", camera.xmagM), io("ymagM", camera.ymagM),
+        io("frame", camera.worldFromCamera);
+}
+
+struct Writer {
+    Json& json;
+    template<typename T>
+    void operator()(const char* key, const T& member) {
+        json[key] = member;
+    }
+    void operator()(const char* key, const glm::dvec3& member) { json[key] = numbers(&member.x, 3); }
+    void operator()(const char* key, const glm::dmat4& member) { json[key] = numbers(&member[0][0], 16); }
+    void operator()(const char* key, const std::optional<double>& member) {
+        json[key] = optionalNumber(member);
+    }
+    void operator()(const char* key, LightType member) { json[key] = wordOf(member); }
+    void operator()(const char* key, LightUnit member) { json[key] = wordOf(member); }
+};
+
+} // namespace
+
+Json toJson(const LightNode& light) {
+    Json json;
+    visitLight(Writer{json}, light);
+    return json;
+}
+Json toJson(const LightDef& def) {
+    Json json;
+    visitDef(Writer{json}, def);
+    return json;
+}
+Json toJson(const Node& node) {
+    Json json = {{"id", node.id},
+                 {"name", node.name},
+                 {"parent", node.parent},
+                 {"mesh", node.mesh},
+                 {"visible", node.visible}};
+    if (node.restTrs) {
+        json["transform"] = trsToJson(*node.restTrs);
+    } else {
+        json["matrix"] = numbers(&node.localFromNode[0][0], 16);
+    }
+    return json;
+}
+Json toJson(const LightGroup& group) {
+    Json json;
+    visitGroup(Writer{json}, group);
+    return json;
+}
+Json toJson(const Camera& camera) {
+    Json json;
+    visitCamera(Writer{json}, camera);
+    return json;
+}
+
+Json toJson(const Edit& edit) {
+    Json json = {{"on", kTargetWords[static_cast<int>(edit.target)]},
+                 {"id", edit.id},
+                 {"from", valueToJson(edit.before)},
+                 {"to", valueToJson(edit.after)}};
+    if (edit.field) json["field"] = edit.field->name;
+    return json;
+}
+
+Json toJson(const Change& change) {
+    Json edits = Json::array();
+    for (const Edit& edit : change.edits)
+        edits.push_back(toJson(edit));
+    return {{"name", change.name}, {"merge", change.mergeKey}, {"edits", std::move(edits)}};
+}
+
+std::optional<Error> fromJson(const Json& json, LightNode& light) {
+    Members members(json);
+    visitLight([&](const char* key, auto& member) { members.read(key, member); }, light);
+    return members.error();
+}
+std::optional<Error> fromJson(const Json& json, LightDef& def) {
+    Members members(json);
+    visitDef([&](const char* key, auto& member) { members.read(key, member); }, def);
+    return members.error();
+}
+std::optional<Error> fromJson(const Json& json, LightGroup& group) {
+    Members members(json);
+    visitGroup([&](const char* key, auto& member) { members.read(key, member); }, group);
+    return members.error();
+}
+std::optional<Error> fromJson(const Json& json, Camera& camera) {
+    Members members(json);
+    visitCamera([&](const char* key, auto& member) { members.read(key, member); }, camera);
+    return members.error();
+}
+std::optional<Error> fromJson(const Json& json, Node& node) {
+    Members members(json);
+    members.read("id", node.id);
+    members.read("name", node.name);
+    members.read("parent", node.parent);
+    members.read("mesh", node.mesh);
+    members.read("visible", node.visible);
+    if (members.find("transform")) {
+        node.restTrs.emplace();
+        members.read("transform", *node.restTrs);
+        node.localFromNode = matrixFrom(*node.restTrs);
+    } else {
+        members.read("matrix", node.localFromNode);
+    }
+    return members.error();
+}
+
+std::optional<Error> fromJson(const Json& json, Edit& edit) {
+    Members members(json);
+    std::string on, field;
+    members.read("on", on);
+    members.read("id", edit.id);
+    members.read("field", field);
+    if (const std::optional<Error> error = members.error()) return error;
+    const auto word = std::find(std::begin(kTargetWords), std::end(kTargetWords), on);
+    if (word == std::end(kTargetWords)) return Error{"on: expected what the edit is of"};
+    edit.target = static_cast<EditTarget>(word - std::begin(kTargetWords));
+    edit.field = field.empty() ? nullptr : findEditField(edit.target, field);
+    if (!field.empty() && !edit.field) return Error{"field: expected one that exists, found '" + field + "'"};
+    for (const auto& [key, value] : {std::pair{"from", &edit.before}, std::pair{"to", &edit.after}}) {
+        const Json nothing, *found = members.find(key);
+        std::optional<Error> error;
+        if (edit.field) {
+            Result<EditValue> read = valueFromJson(found ? *found : nothing, *edit.field);
+            if (!read) return Error{std::string(key) + ": " + read.error()};
+            *value = std::move(read.value());
+        } else {
+            *value = objectFromJson(found ? *found : nothing, edit.target, error);
+        }
+        if (error) return Error{std::string(key) + "/" + error->message};
+    }
+    return std::nullopt;
+}
+
+std::optional<Error> fromJson(const Json& json, Change& change) {
+    Members members(json);
+    members.read("name", change.name);
+    members.read("merge", change.mergeKey);
+    const Json* edits = members.find("edits");
+    if (!edits || !edits->is_array()) members.fail("edits: expected an array");
+    if (const std::optional<Error> error = members.error()) return error;
+    for (const Json& each : *edits) {
+        change.edits.emplace_back();
+        if (const std::optional<Error> error = fromJson(each, change.edits.back())) return error;
+    }
+    return std::nullopt;
+}
+
+Json valueToJson(const EditValue& value) {
+    return std::visit(
+        [](const auto& held) -> Json {
+            using T = std::decay_t<decltype(held)>;
+            if constexpr (std::is_same_v<T, std::monostate>) {
+                return nullptr;
+            } else if constexpr (std::is_same_v<T, glm::dvec3>) {
+                return numbers(&held.x, 3);
+            } else if constexpr (std::is_same_v<T, glm::dmat4>) {
+                return numbers(&held[0][0], 16);
+            } else if constexpr (std::is_same_v<T, Trs>) {
+                return trsToJson(held);
+            } else if constexpr (std::is_same_v<T, LightType> || std::is_same_v<T, LightUnit>) {
+                return wordOf(held);
+            } else if constexpr (requires {
+                                     *held;
+                                     held.use_count();
+                                 }) {
+                return toJson(*held);
+            } else {
+                return held;
+            }
+        },
+        value);
+}
+
+Result<EditValue> valueFromJson(const Json& json, const EditField& field, const EditValue& before) {
+    // Read as the one member of an object, so that the messages have the same words.
+    const Json holder = {{"value", json}};
+    Members members(holder);
+    const auto read = [&](auto target) -> Result<EditValue> {
+        members.read("value", target);
+        if (const std::optional<Error> error = members.error())
+            return Error{error->message.substr(error->message.find("value") + 5)
+                             .substr(error->message.starts_with("value: ") ? 2 : 1)};
+        return EditValue(std::move(target));
+    };
+    switch (field.kind) {
+    case FieldKind::OptionalNumber:
+        if (json.is_null()) return EditValue();
+        return read(0.0);
+    case FieldKind::Number:
+        return read(0.0);
+    case FieldKind::Flag:
+        return read(false);
+    case FieldKind::Text:
+        return read(std::string());
+    case FieldKind::Color:
+        return read(glm::dvec3(0.0));
+    case FieldKind::Type:
+        return read(LightType::Sphere);
+    case FieldKind::Unit:
+        return read(LightUnit::Candela);
+    case FieldKind::Transform:
+        if (json.is_object()) return read(std::get_if<Trs>(&before) ? std::get<Trs>(before) : Trs{});
+        return read(glm::dmat4(1.0));
+    case FieldKind::Frame:
+        return read(glm::dmat4(1.0));
+    case FieldKind::GroupId:
+    case FieldKind::DefIndex:
+        return read(std::uint64_t{0});
+    }
+    return Error{"expected a value"};
+}
+
+} // namespace kilolux

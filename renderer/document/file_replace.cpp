@@ -1,0 +1,111 @@
+#include "renderer/document/file_replace.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace kilolux {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Descriptor {
+  public:
+    explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int get() const { return descriptor_; }
+    bool close() {
+        const int descriptor = descriptor_;
+        descriptor_ = -1;
+        return descriptor < 0 || ::close(descriptor) == 0;
+    }
+
+  private:
+    int descriptor_;
+};
+
+Error systemError(const fs::path& path, const char* what) {
+    return Error{fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno))};
+}
+
+bool writeAll(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written <= 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return true;
+}
+
+// The directory entry is durable only once the directory is.
+bool syncFolder(const fs::path& folder) {
+    const Descriptor descriptor(
+        ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    // Some file systems cannot sync a folder; that is not the user's fault.
+    return descriptor.get() >= 0 && (::fsync(descriptor.get()) == 0 || errno == EINVAL || errno == ENOTSUP);
+}
+
+} // namespace
+
+std::optional<Error> replaceFile(const fs::path& path, std::string_view bytes,
+                                 const ReplaceOptions& options) {
+    const auto reach = [&](ReplaceStage stage) {
+        if (options.onStage) options.onStage(stage);
+    };
+    std::error_code ignored;
+    fs::path target = fs::is_symlink(path, ignored) ? fs::canonical(path, ignored) : path;
+    if (target.empty()) return Error{fmt::format("{}: expected a link to a file that exists", path.string())};
+    struct stat old {};
+    const bool existed = ::stat(target.c_str(), &old) == 0;
+    if (existed && !S_ISREG(old.st_mode))
+        return Error{fmt::format("{}: expected a regular file to write to", path.string())};
+    if (existed && ::access(target.c_str(), W_OK) != 0) return systemError(path, "write");
+    std::string name = target.string() + ".XXXXXX";
+    Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
+    if (file.get() < 0) return systemError(path, "create a file beside it");
+    const auto giveUp = [&](const char* what) {
+        const Error error = systemError(path, what);
+        ::unlink(name.c_str());
+        return error;
+    };
+    reach(ReplaceStage::Opened);
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    if (::fchmod(file.get(), existed ? old.st_mode & 07777 : 0666 & ~mask) != 0)
+        return giveUp("set permissions");
+    if (!writeAll(file.get(), bytes)) return giveUp("write");
+    reach(ReplaceStage::Written);
+    if (::fsync(file.get()) != 0 || !file.close()) return giveUp("write");
+    reach(ReplaceStage::Synced);
+    if (::rename(name.c_str(), target.c_str()) != 0) return giveUp("replace it");
+    reach(ReplaceStage::Renamed);
+    if (!syncFolder(target.parent_path())) return systemError(path, "make it durable");
+    return std::nullopt;
+}
+
+Result<std::string> readWholeFile(const fs::path& path) {
+    struct stat status {};
+    const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.get() < 0 || ::fstat(file.get(), &status) != 0) return systemError(path, "read");
+    if (!S_ISREG(status.st_mode)) return Error{fmt::format("{}: expected a regular file", path.string())};
+    std::string bytes(static_cast<std::size_t>(status.st_size), '\0');
+    std::size_t have = 0;
+    while (have < bytes.size()) {
+        const ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return systemError(path, "read");
+        if (got == 0) break;
+        have += static_cast<std::size_t>(got);
+    }
+    bytes.resize(have);
+    return bytes;
+}
+
+} // namespace kilolux

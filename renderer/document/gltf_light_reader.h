@@ -1,0 +1,40 @@
+// A light definition from the JSON of KHR_lights_punctual or the draft EXT_lights_area, and what
+// extras.kilolux adds to it (extras.md). Saving reads its own work back with this. Internal to
+// renderer/document.
+#pragma once
+
+#include "renderer/document/gltf_fields.h"
+
+namespace kilolux::gltf {
+
+enum class LightExtension : std::uint8_t { Punctual, Area };
+
+constexpr const char* nameOf(LightExtension extension) {
+    return extension == LightExtension::Area ? "EXT_lights_area" : "KHR_lights_punctual";
+}
+
+class LightReader {
+  public:
+    explicit LightReader(ImportContext& context) : context_(context) {}
+
+    // The definition as the extension says it; nothing where it cannot be used. An area light's size follows
+    // the largest scale of its node in the world.
+    std::optional<LightDef> read(LightExtension extension, const Json& light, const std::string& pointer,
+                                 double nodeScale);
+
+    // What the node's extras.kilolux changes.
+    void applyExtras(const Fields& extras, LightDef& def);
+
+  private:
+    std::optional<LightDef> readPunctual(const Json& light, const std::string& pointer);
+    std::optional<LightDef> readArea(const Json& light, const std::string& pointer, double nodeScale);
+    void readCommon(const Fields& fields, LightDef& def);
+    void readSpot(const Fields& fields, LightDef& def);
+    void applyIntensity(const Fields& extras, const LightDef& before, LightDef& def);
+
+    ImportContext& context_;
+};
+
+double largestScale(const glm::dmat4& worldFromNode);
+
+} // namespace kilolux::gltf

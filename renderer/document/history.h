@@ -1,0 +1,46 @@
+// Undo and redo. Every change goes through here; drags merge into one step.
+#pragma once
+
+#include "renderer/document/edit.h"
+
+namespace kilolux {
+
+enum class Merging { Allow, Never };
+
+class History {
+  public:
+    // Applies the change and makes it the newest step; it joins the newest one where merging is allowed, both
+    // have the same key and nothing has sealed it. What could be redone is forgotten.
+    std::optional<Error> apply(Scene& scene, Change change, Merging merging = Merging::Allow);
+
+    // Whether the next change of that key would join the newest step.
+    bool wouldMerge(std::string_view mergeKey) const;
+
+    std::optional<Error> undo(Scene& scene); // nothing to undo is an error
+    std::optional<Error> redo(Scene& scene);
+
+    // Ends a drag: the newest step takes no more changes.
+    void seal() { open_ = false; }
+    // Gives a drag up: undoes the newest step if it is still open, without leaving it for redo.
+    std::optional<Error> cancel(Scene& scene);
+
+    bool canUndo() const { return done_ > 0; }
+    bool canRedo() const { return done_ < steps_.size(); }
+    std::string undoName() const { return canUndo() ? steps_[done_ - 1].change.name : ""; }
+    std::string redoName() const { return canRedo() ? steps_[done_].change.name : ""; }
+
+    // Names the present state: equal again after undo and redo, different after every change.
+    std::uint64_t state() const { return done_ > 0 ? steps_[done_ - 1].state : 0; }
+
+  private:
+    struct Step {
+        Change change;
+        std::uint64_t state = 0;
+    };
+    std::vector<Step> steps_;
+    std::size_t done_ = 0; // steps in effect; those behind can be redone
+    std::uint64_t lastState_ = 0;
+    bool open_ = false;
+};
+
+} // namespace kilolux
