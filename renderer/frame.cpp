@@ -17,6 +17,7 @@ FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
         traceSamples = std::make_unique<TraceSamplesPass>(resources, plan.tracer);
         visibleList = std::make_unique<VisibleListPass>(resources);
         shadeSamples = std::make_unique<ShadeSamplesPass>(resources);
+        countLights = std::make_unique<CountLightsPass>(resources);
     } else {
         lightAll = std::make_unique<LightAllPass>(resources, plan.tracer);
     }
@@ -38,6 +39,7 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
         passes.traceSamples->record(frame, world);
         if (plan.writeLists) passes.visibleList->record(frame);
         passes.shadeSamples->record(frame);
+        if (plan.countLights) passes.countLights->record(frame);
     }
     passes.composite.record(frame);
     if (passes.transparent) passes.transparent->record(frame);

@@ -22,6 +22,7 @@ struct FramePlan {
     bool halfSampling = false;
     std::uint32_t choices = 1; // samples of one evaluation of the candidate lights
     bool writeLists = true;    // false: frozen
+    bool countLights = true;   // lights in range are counted, for statistics or a view
     bool stochastic() const { return method == Method::Stochastic; }
 };
 
@@ -40,6 +41,7 @@ struct FramePasses {
     std::unique_ptr<TraceSamplesPass> traceSamples;
     std::unique_ptr<VisibleListPass> visibleList;
     std::unique_ptr<ShadeSamplesPass> shadeSamples;
+    std::unique_ptr<CountLightsPass> countLights;
     CompositePass composite;
     std::unique_ptr<TransparentPass> transparent;
     AccumulatePass accumulate;

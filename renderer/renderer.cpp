@@ -105,6 +105,7 @@ struct Renderer::Impl {
     void runFrame(std::uint32_t index, int widthPx, int heightPx, gpu::PassTimes& passTimes);
     void compilePipelines();
     Picture readPicture() const;
+    void describeCounters();
     void describeHistory(const shared::FrameConstants& before);
     bool frozen(std::uint32_t index) const; // what the settings freeze stands still in this frame
 
@@ -130,7 +131,7 @@ struct Renderer::Impl {
     bool historyValid = false; // the previous frame may be looked up
     gpu::PassTimes times;
     FrameStatistics statistics;
-    std::uint64_t lightsInRange = 0, lightsTested = 0, surfacePixels = 0;
+    std::vector<std::uint64_t> counted = std::vector<std::uint64_t>(shared::COUNTER_COUNT); // of all frames
 };
 
 std::optional<Error> Renderer::Impl::prepare() {
@@ -264,17 +265,34 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
     commands.fillBuffer(counterBuffer, 0);
     FrameContext context{commands,      *gpuScene, *targets, frameBuffer, constants,
                          counterBuffer, *grid,     features, lists.get()};
+    plan.countLights = plan.view == shared::VIEW_LIGHTS_IN_RANGE || plan.view == shared::VIEW_LIGHTS_SEEN ||
+                       plan.view == shared::VIEW_SEEN_SHARE || index + 1 == std::uint32_t(options.frames);
     plan.writeLists = !(frozen(index) && options.settings.freezeLists);
     recordFrame(context, *passes, plan, world, index, float(0.25 * sceneExtentM));
     commands.submitAndWait();
     const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
-    statistics.rays += counts[shared::COUNTER_RAYS];
-    lightsInRange += counts[shared::COUNTER_LIGHTS_IN_RANGE];
-    lightsTested += counts[shared::COUNTER_LIGHTS_TESTED];
-    surfacePixels += counts[shared::COUNTER_SURFACE_PIXELS];
+    for (std::size_t i = 0; i < counted.size(); ++i)
+        counted[i] += counts[i];
     if (constants.grid.enabled) gridUse = grid->finishFrame();
     if (lists && plan.writeLists) lists->turn();
     historyValid = true;
+}
+
+void Renderer::Impl::describeCounters() {
+    using namespace shared;
+    const auto ratio = [&](std::uint32_t above, std::uint32_t below) {
+        return counted[below] ? double(counted[above]) / double(counted[below]) : 0.0;
+    };
+    statistics.rays = counted[COUNTER_RAYS];
+    statistics.lightsInRangeMean = ratio(COUNTER_LIGHTS_IN_RANGE, COUNTER_COUNTED_PIXELS);
+    statistics.lightsTestedMean = ratio(COUNTER_LIGHTS_TESTED, COUNTER_COUNTED_PIXELS);
+    statistics.candidatesMean = ratio(COUNTER_CANDIDATES, COUNTER_SURFACE_PIXELS);
+    statistics.raysPerPixelMean = ratio(COUNTER_RAYS, COUNTER_SURFACE_PIXELS);
+    statistics.usefulRaysPerPixelMean = ratio(COUNTER_USEFUL_RAYS, COUNTER_SURFACE_PIXELS);
+    statistics.missedShare = ratio(COUNTER_MISSED, COUNTER_SURFACE_PIXELS);
+    const double tiles = double(constants.tiles.x) * constants.tiles.y * options.frames;
+    statistics.listLengthMean = double(counted[COUNTER_LIST_ENTRIES]) / tiles;
+    statistics.listOverflowMean = double(counted[COUNTER_LIST_OVERFLOW]) / tiles;
 }
 
 // What the frame knows of the one before; without one, the present stands in for it.
@@ -302,7 +320,7 @@ void Renderer::Impl::compilePipelines() {
         statistics.firstDispatchMs.emplace_back(entry.name,
                                                 *std::max_element(entry.ms.begin(), entry.ms.end()));
     }
-    statistics.rays = lightsInRange = lightsTested = surfacePixels = 0;
+    std::fill(counted.begin(), counted.end(), 0);
     historyValid = false;
 }
 
@@ -345,8 +363,7 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     statistics.frames = options.frames;
     statistics.seed = options.seed;
     statistics.lights = gpuScene->lightCount();
-    statistics.lightsInRangeMean = surfacePixels ? double(lightsInRange) / double(surfacePixels) : 0.0;
-    statistics.lightsTestedMean = surfacePixels ? double(lightsTested) / double(surfacePixels) : 0.0;
+    describeCounters();
     statistics.triangles = gpuScene->triangles();
     statistics.exposureEv100 = exposureEv100;
     statistics.gridIndices = gridUse.indices;

@@ -32,6 +32,12 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["lights"] = s.lights;
     json["lightsInRangeMean"] = s.lightsInRangeMean;
     json["lightsTestedMean"] = s.lightsTestedMean;
+    json["sampling"] = {{"candidatesMean", s.candidatesMean},
+                        {"raysPerPixelMean", s.raysPerPixelMean},
+                        {"usefulRaysPerPixelMean", s.usefulRaysPerPixelMean},
+                        {"missedShare", s.missedShare},
+                        {"listLengthMean", s.listLengthMean},
+                        {"listOverflowMean", s.listOverflowMean}};
     json["triangles"] = s.triangles;
     json["features"] = {{"on", s.featuresOn}, {"off", s.featuresOff}};
     json["passes"] = std::move(passes);

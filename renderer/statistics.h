@@ -33,7 +33,14 @@ struct FrameStatistics {
     std::size_t lights = 0;
     double lightsInRangeMean = 0.0; // within range, cone and side; per pixel that shows a surface
     double lightsTestedMean = 0.0;  // length of the list that a pixel walks: over-inclusion shows against it
-    std::size_t triangles = 0;      // instances counted each
+    // Of the stochastic method; 0 for the others.
+    double candidatesMean = 0.0;         // lights that a pixel evaluates in a frame
+    double raysPerPixelMean = 0.0;       // traced, per pixel that shows a surface and may sample
+    double usefulRaysPerPixelMean = 0.0; // those that met their light
+    double missedShare = 0.0;            // pixels whose reprojection failed
+    double listLengthMean = 0.0;         // lights on a tile's visible list
+    double listOverflowMean = 0.0;       // lights for which it had no room
+    std::size_t triangles = 0;           // instances counted each
     std::vector<std::string> featuresOn;
     std::vector<std::string> featuresOff; // "Name: why"
     std::vector<PassTiming> passes;       // in frame order

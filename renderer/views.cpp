@@ -25,6 +25,15 @@ constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
     {"lights-in-range", "lights that may shine on each pixel: within range, cone and side, 0 to 64"},
     {"lights-seen", "lights of which a ray was not blocked, 0 to 64"},
     {"seen-share", "share of the lights in range that is seen, 0 to 1"},
+    {"chosen-light", "stochastic: a colour per light that the pixel's first ray went to; black: none"},
+    {"visibility", "stochastic: share of the pixel's rays that met their light; blue: no ray"},
+    {"hidden-share", "stochastic: share of the pixel's samples that went to lights not on its list"},
+    {"sample-weight", "stochastic: perceptual weight of the chosen light, 0 to 4"},
+    {"list-length",
+     "stochastic: lights on the visible list of each 8 x 8 tile, 0 to 32; white: it overflowed"},
+    {"list-age", "stochastic: mean frames since the listed lights were last seen, 0 to 15"},
+    {"reprojection", "stochastic: red: not found in the previous frame; green: no neighbour fitted at half "
+                     "resolution; blue: a light was just edited"},
 }};
 
 constexpr std::array<NamedChoice, 4> kMethods{{

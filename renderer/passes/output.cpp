@@ -40,25 +40,35 @@ DebugViewPass::DebugViewPass(gpu::PassResources& resources)
              {"lightCounts"},
              {"pyramid"},
              {"ltcScales"},
+             {"samples", Access::Read, gpu::Presence::Optional},
+             {"rayResults", Access::Read, gpu::Presence::Optional},
+             {"visibleLists", Access::Read, gpu::Presence::Optional},
              {"displayOut", Access::Write},
              {"viewValuesOut", Access::Write}}) {}
 
 void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
     const Targets& targets = frame.targets;
+    gpu::Bindings sampling;
+    if (frame.lists) {
+        sampling = {{"samples", targets.samples},
+                    {"rayResults", targets.rayResults},
+                    {"visibleLists", frame.lists->current()}};
+    }
     pass_.record(frame.commands, frame.features,
-                 {{"Frame", frame.frameBuffer},
-                  {"visibility", targets.visibility},
-                  {"gDepth", targets.gDepth},
-                  {"gNormals", targets.gNormals},
-                  {"gMaterial", targets.gMaterial},
-                  {"gEmissive", targets.gEmissive},
-                  {"litDiffuse", targets.litDiffuse},
-                  {"litSpecular", targets.litSpecular},
-                  {"lightCounts", targets.lightCounts},
-                  {"pyramid", targets.pyramid},
-                  frame.scene.environmentBrdf(),
-                  {"displayOut", targets.display},
-                  {"viewValuesOut", targets.viewValues}},
+                 joined({sampling,
+                         {{"Frame", frame.frameBuffer},
+                          {"visibility", targets.visibility},
+                          {"gDepth", targets.gDepth},
+                          {"gNormals", targets.gNormals},
+                          {"gMaterial", targets.gMaterial},
+                          {"gEmissive", targets.gEmissive},
+                          {"litDiffuse", targets.litDiffuse},
+                          {"litSpecular", targets.litSpecular},
+                          {"lightCounts", targets.lightCounts},
+                          {"pyramid", targets.pyramid},
+                          frame.scene.environmentBrdf(),
+                          {"displayOut", targets.display},
+                          {"viewValuesOut", targets.viewValues}}}),
                  depthScaleM, frame.tiles());
 }
 

@@ -127,6 +127,15 @@ class ShadeSamplesPass {
     gpu::ComputePass pass_;
 };
 
+class CountLightsPass {
+  public:
+    explicit CountLightsPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
 class CompositePass {
   public:
     explicit CompositePass(gpu::PassResources& resources);

@@ -134,4 +134,24 @@ void ShadeSamplesPass::record(FrameContext& frame) {
                  frame.tiles());
 }
 
+CountLightsPass::CountLightsPass(gpu::PassResources& resources)
+    : pass_(resources, "count_lights",
+            joined({receiverUses(),
+                    {{"rayResults"},
+                     {"GridCells"},
+                     {"gridIndices"},
+                     {"lightCountsOut", Access::Write},
+                     {"Counters", Access::ReadWrite}}})) {}
+
+void CountLightsPass::record(FrameContext& frame) {
+    pass_.record(frame.commands, frame.features,
+                 joined({receiverBindings(frame),
+                         {{"rayResults", frame.targets.rayResults},
+                          {"GridCells", frame.grid.cells()},
+                          {"gridIndices", frame.grid.indices()},
+                          {"lightCountsOut", frame.targets.lightCounts},
+                          {"Counters", frame.counters}}}),
+                 frame.tiles());
+}
+
 } // namespace kilolux

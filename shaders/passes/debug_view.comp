@@ -5,6 +5,8 @@
 #include "lib/dispatch.glsl"
 #include "lib/environment_brdf_table.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/sample.glsl"
+#include "lib/visible_list.glsl"
 #include "math/color_map.glsl"
 #include "math/tone_map.glsl"
 
@@ -24,6 +26,9 @@ uniform sampler2D litDiffuse;
 uniform sampler2D litSpecular;
 uniform usampler2D lightCounts;
 uniform sampler2D pyramid;
+uniform usampler2DArray samples;
+uniform usampler2DArray rayResults;
+uniform usamplerBuffer visibleLists; // this frame's
 layout(rgba8) writeonly uniform image2D displayOut;
 layout(rgba32f) writeonly uniform image2D viewValuesOut;
 
@@ -32,6 +37,51 @@ const float kCountScale = 64.0;
 // Half of the scale at depthScaleM, its end at infinity.
 float depthShare(float depthM) {
     return depthM >= DEPTH_SKY ? 1.0 : depthM / (depthM + depthScaleM);
+}
+
+// Views of the stochastic method's samples and lists; `value` is the raw value.
+vec3 showSampling(uvec2 pixel, out vec3 value) {
+    float chosen = 0.0, seen = 0.0, hidden = 0.0, rays = 0.0;
+    for (uint i = 0u; i < frame.sampling.rays; ++i) {
+        StoredSample s = unpackSample(texelFetch(samples, ivec3(pixel, i), 0));
+        uint state = texelFetch(rayResults, ivec3(pixel, i), 0).x & RAY_STATE_MASK;
+        rays += state == RAY_NONE ? 0.0 : 1.0;
+        seen += state == RAY_VISIBLE ? 1.0 : 0.0;
+        chosen += s.contribution > 0.0 ? 1.0 : 0.0;
+        hidden += s.contribution > 0.0 && s.list == LIST_HIDDEN ? 1.0 : 0.0;
+    }
+    StoredSample first = unpackSample(texelFetch(samples, ivec3(pixel, 0), 0));
+    if (kView == VIEW_CHOSEN_LIGHT) {
+        value = vec3(chosen > 0.0 ? float(first.slot) : -1.0);
+        return first.contribution > 0.0 ? idColor(first.slot) : vec3(0.0);
+    }
+    if (kView == VIEW_VISIBILITY) {
+        value = vec3(rays > 0.0 ? seen / rays : -1.0);
+        return rays > 0.0 ? vec3(value.x) : vec3(0.0, 0.1, 0.4);
+    }
+    if (kView == VIEW_HIDDEN_SHARE) {
+        value = vec3(chosen > 0.0 ? hidden / chosen : 0.0);
+        return amountColor(value.x);
+    }
+    if (kView == VIEW_SAMPLE_WEIGHT) {
+        value = vec3(first.weight);
+        return amountColor(first.weight / 4.0);
+    }
+    if (kView == VIEW_REPROJECTION) {
+        value = vec3(uvec3(first.flags & SAMPLE_MISSED, first.flags & SAMPLE_RECONSTRUCTED,
+                           first.flags & SAMPLE_EDITED)) * vec3(1.0 / float(SAMPLE_MISSED),
+                                                                1.0 / float(SAMPLE_RECONSTRUCTED),
+                                                                1.0 / float(SAMPLE_EDITED));
+        return value;
+    }
+    uint texel = listTexel(ivec2(pixel / LIST_TILE_PX), frame.tiles);
+    uvec2 head = texelFetch(visibleLists, int(texel)).xy;
+    float ages = 0.0;
+    for (uint i = 0u; i < min(head.x, LIST_CAPACITY); ++i)
+        ages += float(unpackEntry(texelFetch(visibleLists, int(texel + 1u + i)).x).age);
+    value = kView == VIEW_LIST_LENGTH ? vec3(head, 0.0) : vec3(head.x > 0u ? ages / float(head.x) : 0.0);
+    if (kView == VIEW_LIST_LENGTH) return head.y > 0u ? vec3(1.0) : amountColor(float(head.x) / float(LIST_CAPACITY));
+    return amountColor(value.x / 15.0);
 }
 
 void main() {
@@ -79,6 +129,7 @@ void main() {
         value = vec3(inRange > 0.0 ? seen / inRange : 0.0);
         shown = amountColor(value.x);
     }
+    if (kView >= VIEW_CHOSEN_LIGHT && kView <= VIEW_REPROJECTION) shown = showSampling(pixel, value);
     if (depthM >= DEPTH_SKY) shown = vec3(0.0);
     imageStore(displayOut, at, vec4(shown, 1.0));
     imageStore(viewValuesOut, at, vec4(value, 1.0));

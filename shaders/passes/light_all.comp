@@ -127,6 +127,7 @@ void main() {
         atomicAdd(counters[COUNTER_LIGHTS_IN_RANGE], inRange);
         atomicAdd(counters[COUNTER_LIGHTS_TESTED], cell.count);
         atomicAdd(counters[COUNTER_SURFACE_PIXELS], 1u);
+        atomicAdd(counters[COUNTER_COUNTED_PIXELS], 1u);
     }
     imageStore(litDiffuseOut, at, vec4(diffuse, 1.0));
     imageStore(litSpecularOut, at, vec4(specular, 1.0));

@@ -8,6 +8,7 @@
 
 layout(constant_id = CHOICE_HALF_SAMPLING) const int kHalfSampling = HALF_OFF;
 
+#include "lib/count.glsl"
 #include "lib/light_grid.glsl"
 #include "lib/receiver.glsl"
 #include "lib/reprojection.glsl"
@@ -29,9 +30,6 @@ layout(scalar) readonly buffer DirectionalSlots {
     uint directionalSlots[];
 };
 layout(rgba32ui) writeonly uniform uimage2DArray samplesOut;
-layout(scalar) buffer Counters {
-    uint counters[];
-};
 
 uint visibleAt; // texel of the list's first entry
 uint cellFirst;
@@ -71,14 +69,15 @@ bool dipsBelow(LightHot light, ShadingPoint point) {
 }
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
-    bool inside = kHalfSampling == HALF_OFF ? isInPicture(pixel) : all(lessThan(pixel, (frame.size + 1u) / 2u));
-    if (!inside) return;
+    bool atHalf = kHalfSampling != HALF_OFF;
+    uvec2 tiles = atHalf ? (frame.tiles + 1u) / 2u : frame.tiles;
+    uvec2 pixel = interleavedTile(gl_WorkGroupID.x, tiles, frame.tileChunks) * 8u + gl_LocalInvocationID.xy;
+    if (any(greaterThanEqual(pixel, atHalf ? (frame.size + 1u) / 2u : frame.size))) return;
     uvec2 stored = pixel; // texel of the samples
     SamplingConstants how = frame.sampling;
-    if (kHalfSampling != HALF_OFF) pixel = halfResolutionPixel(pixel, kHalfSampling, how.noiseFrame);
+    if (atHalf) pixel = halfResolutionPixel(pixel, kHalfSampling, how.noiseFrame);
     Receiver receiver = loadReceiver(pixel);
-    bool hasTurn = kHalfSampling != HALF_OFF || isSampledPixel(pixel, how.pixelsPerRay, how.noiseFrame);
+    bool hasTurn = atHalf || isSampledPixel(pixel, how.pixelsPerRay, how.noiseFrame);
     if (!receiver.exists || !hasTurn) {
         for (uint i = 0u; i < how.choices; ++i)
             imageStore(samplesOut, ivec3(stored, i), uvec4(0u));
@@ -118,7 +117,7 @@ void main() {
         float unshadowed = lightWeight(light, receiver.point, albedo, f0);
         float weight = perceptualWeight(unshadowed, frame.exposure);
         // What is nothing here may be something at a neighbour that takes this pixel's choice.
-        if (kHalfSampling != HALF_OFF && lightReaches(light, receiver.point.positionWs))
+        if (atHalf && lightReaches(light, receiver.point.positionWs))
             weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));
         uint mask = walk.maskEntry != KX_NO_LIGHT && !directional ? maskOfEntry(walk.maskEntry, light) : 0u;
         uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
@@ -149,7 +148,8 @@ void main() {
         }
         imageStore(samplesOut, ivec3(stored, i), packSample(s));
     }
-    atomicAdd(counters[COUNTER_CANDIDATES], candidates);
-    atomicAdd(counters[COUNTER_SAMPLES], chosen);
-    atomicAdd(counters[COUNTER_LIGHTS_TESTED], cell.count);
+    countAll(COUNTER_CANDIDATES, candidates);
+    countAll(COUNTER_SAMPLES, chosen);
+    countAll(COUNTER_MISSED, missed ? 1u : 0u);
+    countAll(COUNTER_SURFACE_PIXELS, 1u);
 }

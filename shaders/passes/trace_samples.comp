@@ -2,6 +2,7 @@
 // One shadow ray per sample, from the pixel's own surface to the sampled point of the light.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
+#include "lib/count.glsl"
 #include "lib/receiver.glsl"
 #include "lib/sample.glsl"
 #include "lib/trace.glsl"
@@ -14,9 +15,6 @@ layout(push_constant) uniform Push {
 };
 uniform usampler2DArray samples;
 layout(r32ui) writeonly uniform uimage2DArray rayResultsOut;
-layout(scalar) buffer Counters {
-    uint counters[];
-};
 
 void main() {
     uvec2 pixel = dispatchedPixel();
@@ -43,8 +41,8 @@ void main() {
                 bool hidden = false;
                 if (ray.tMaxM > 0.0) {
                     hidden = occluded(ray);
-                    atomicAdd(counters[COUNTER_RAYS], 1u);
-                    if (!hidden) atomicAdd(counters[COUNTER_USEFUL_RAYS], 1u);
+                    countAll(COUNTER_RAYS, 1u);
+                    countAll(COUNTER_USEFUL_RAYS, hidden ? 0u : 1u);
                 }
                 if (!hidden) result = RAY_VISIBLE | areaMaskQuarter(s.uv) << RAY_QUARTER_SHIFT;
             }

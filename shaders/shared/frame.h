@@ -54,7 +54,9 @@ KX_CONST uint COUNTER_CANDIDATES = 5u;     // lights that pixels evaluated
 KX_CONST uint COUNTER_LIST_ENTRIES = 6u;   // of all visible lists
 KX_CONST uint COUNTER_LIST_OVERFLOW = 7u;  // lights that a list had no room for
 KX_CONST uint COUNTER_SAMPLES = 8u;        // samples with a light
-KX_CONST uint COUNTER_COUNT = 9u;
+KX_CONST uint COUNTER_COUNTED_PIXELS = 9u; // pixels that the first two of lights and tests were counted for
+KX_CONST uint COUNTER_MISSED = 10u;        // pixels whose reprojection failed
+KX_CONST uint COUNTER_COUNT = 11u;
 
 KX_SHARED_END
 #endif

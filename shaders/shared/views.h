@@ -21,7 +21,14 @@ const int VIEW_PRIMITIVE = 12;
 const int VIEW_LIGHTS_IN_RANGE = 13;
 const int VIEW_LIGHTS_SEEN = 14;
 const int VIEW_SEEN_SHARE = 15;
-const int VIEW_COUNT = 16;
+const int VIEW_CHOSEN_LIGHT = 16;
+const int VIEW_VISIBILITY = 17;
+const int VIEW_HIDDEN_SHARE = 18;
+const int VIEW_SAMPLE_WEIGHT = 19;
+const int VIEW_LIST_LENGTH = 20;
+const int VIEW_LIST_AGE = 21;
+const int VIEW_REPROJECTION = 22;
+const int VIEW_COUNT = 23;
 
 KX_SHARED_END
 #endif

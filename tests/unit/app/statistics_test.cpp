@@ -18,6 +18,12 @@ TEST(Statistics, JsonHoldsEveryField) {
                                      .lights = 14,
                                      .lightsInRangeMean = 1.5,
                                      .lightsTestedMean = 2.5,
+                                     .candidatesMean = 3.5,
+                                     .raysPerPixelMean = 4.5,
+                                     .usefulRaysPerPixelMean = 5.25,
+                                     .missedShare = 6.5,
+                                     .listLengthMean = 7.5,
+                                     .listOverflowMean = 8.5,
                                      .triangles = 15,
                                      .featuresOn = {"A"},
                                      .featuresOff = {"B: none in the scene"},
@@ -52,6 +58,12 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(std::stoull(json["settingsHash"].get<std::string>(), nullptr, 16), settingsHash(settings));
     EXPECT_EQ(json["settingsHash"].get<std::string>().size(), 16u);
     EXPECT_EQ(json["lights"], 14);
+    EXPECT_EQ(json["sampling"]["candidatesMean"], 3.5);
+    EXPECT_EQ(json["sampling"]["raysPerPixelMean"], 4.5);
+    EXPECT_EQ(json["sampling"]["usefulRaysPerPixelMean"], 5.25);
+    EXPECT_EQ(json["sampling"]["missedShare"], 6.5);
+    EXPECT_EQ(json["sampling"]["listLengthMean"], 7.5);
+    EXPECT_EQ(json["sampling"]["listOverflowMean"], 8.5);
     EXPECT_EQ(json["exposureEv100"], 5.5);
     EXPECT_EQ(json["rangesDerived"], 23);
     EXPECT_EQ(json["bvh"]["buildMs"], 24.5);
@@ -75,7 +87,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["gpuMemoryMiB"]["total"], 38.0);
     EXPECT_EQ(json["firstDispatchMs"]["z_first"], 21.0);
     EXPECT_EQ(json["startupMs"], 22.0);
-    EXPECT_EQ(json.size(), 27u) << "a field was added or lost: say so in the README";
+    EXPECT_EQ(json.size(), 28u) << "a field was added or lost: say so in the README";
 }
 
 } // namespace
