@@ -1,5 +1,6 @@
 #include "renderer/document/history.h"
 
+#include <algorithm>
 #include <map>
 
 namespace kilolux {
@@ -25,6 +26,13 @@ void join(Change& step, Change change) {
             step.edits.push_back(std::move(edit));
         }
     }
+}
+
+bool sameEdits(const std::vector<Edit>& a, const std::vector<Edit>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Edit& x, const Edit& y) {
+        return x.target == y.target && x.id == y.id && x.field == y.field && sameValue(x.before, y.before) &&
+               sameValue(x.after, y.after);
+    });
 }
 
 } // namespace
@@ -63,6 +71,31 @@ std::optional<Error> History::redo(Scene& scene) {
     ++done_;
     open_ = false;
     return std::nullopt;
+}
+
+Change History::nextUndo() const {
+    Change change;
+    if (!canUndo()) return change;
+    const Change& step = steps_[done_ - 1].change;
+    change.name = "Undo " + step.name;
+    for (auto edit = step.edits.rbegin(); edit != step.edits.rend(); ++edit)
+        change.edits.push_back(inverted(*edit));
+    return change;
+}
+
+Change History::nextRedo() const {
+    if (!canRedo()) return {};
+    return {"Redo " + steps_[done_].change.name, "", steps_[done_].change.edits};
+}
+
+std::optional<Error> History::replayUndo(Scene& scene, Change change) {
+    if (canUndo() && sameEdits(nextUndo().edits, change.edits)) return undo(scene);
+    return apply(scene, std::move(change), Merging::Never);
+}
+
+std::optional<Error> History::replayRedo(Scene& scene, Change change) {
+    if (canRedo() && sameEdits(nextRedo().edits, change.edits)) return redo(scene);
+    return apply(scene, std::move(change), Merging::Never);
 }
 
 std::optional<Error> History::cancel(Scene& scene) {

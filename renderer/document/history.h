@@ -29,6 +29,15 @@ class History {
     std::string undoName() const { return canUndo() ? steps_[done_ - 1].change.name : ""; }
     std::string redoName() const { return canRedo() ? steps_[done_].change.name : ""; }
 
+    // What undo() and redo() would apply, as a change of its own; without edits where there is nothing.
+    Change nextUndo() const;
+    Change nextRedo() const;
+
+    // Applies a change that was an undo or redo when it was made: as one where that is the newest step again,
+    // else as a step of its own.
+    std::optional<Error> replayUndo(Scene& scene, Change change);
+    std::optional<Error> replayRedo(Scene& scene, Change change);
+
     // Names the present state: equal again after undo and redo, different after every change.
     std::uint64_t state() const { return done_ > 0 ? steps_[done_ - 1].state : 0; }
 

@@ -144,6 +144,12 @@ Result<std::unique_ptr<Journal>> Journal::resume(const std::filesystem::path& pa
         new Journal(path, opened.value(), content.wholeBytes, content.records.size()));
 }
 
+Result<std::unique_ptr<Journal>> Journal::lock(const std::filesystem::path& path) {
+    const Result<int> opened = openLocked(path, 0);
+    if (!opened) return Error{opened.error()};
+    return std::unique_ptr<Journal>(new Journal(path, opened.value(), 0, 0));
+}
+
 std::optional<Error> Journal::append(std::string_view payload) {
     const std::lock_guard lock(mutex_);
     if (descriptor_ < 0) return Error{fmt::format("{}: the journal is closed", path_.string())};
@@ -212,7 +218,8 @@ std::filesystem::path defaultJournalPath(const std::filesystem::path& scenePath)
                           : home && *home ? fs::path(home) / ".local" / "state"
                                           : fs::temp_directory_path(error);
     return root / "kilolux" / "journals" /
-           (scenePath.filename().string() + "-" + hashText(hashBytes(absolute.string())) + ".journal");
+           (scenePath.filename().string().substr(0, 100) + "-" + hashText(hashBytes(absolute.string())) +
+            ".journal");
 }
 
 } // namespace kilolux

@@ -36,11 +36,13 @@ std::string journalRecord(std::uint64_t number, std::string_view payload);
 // A journal that is open for appending, by one process at a time.
 class Journal {
   public:
-    // Starts a new journal, or goes on with `content`, which was read from the file: its torn end is cut off.
-    // An error names the file; another process that has it open is one.
+    // Starts a new journal. An error names the file; another process that has it open is one.
     static Result<std::unique_ptr<Journal>> create(const std::filesystem::path& path, std::uint64_t baseHash);
+    // Goes on with `content`, which was read from the file; its torn end is cut off.
     static Result<std::unique_ptr<Journal>> resume(const std::filesystem::path& path,
                                                    const JournalContent& content);
+    // Only keeps other processes away from a file that is not a usable journal.
+    static Result<std::unique_ptr<Journal>> lock(const std::filesystem::path& path);
 
     ~Journal();
     Journal(const Journal&) = delete;
