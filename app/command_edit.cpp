@@ -1,21 +1,162 @@
-// kilolux edit: says what there is instead of the window until the window exists.
+// kilolux edit: applies a list of edits to a scene without a window, and says what there is instead of the
+// window until the window exists.
+#include "app/choices.h"
 #include "app/commands.h"
 
+#include "renderer/document/edit_script.h"
+#include "renderer/document/file_replace.h"
+
+#include <fmt/format.h>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace kilolux {
 
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kFooter = R"(Examples:
+  kilolux edit scene.glb --do edits.json              change the file itself
+  kilolux edit scene.glb --do edits.json -o new.glb   leave it as it is
+  kilolux edit --list                                 every field that can be edited
+The list of edits is described in renderer/document/edits.md.)";
+
+struct EditOptions {
+    std::string scene, script, output;
+    bool list = false;
+    bool json = false;
+};
+
+const char* kindWord(FieldKind kind) {
+    switch (kind) {
+    case FieldKind::Number:
+        return "number";
+    case FieldKind::OptionalNumber:
+        return "number or null";
+    case FieldKind::Flag:
+        return "true or false";
+    case FieldKind::Text:
+        return "text";
+    case FieldKind::Color:
+        return "three numbers";
+    case FieldKind::Type:
+    case FieldKind::Unit:
+        return "word";
+    case FieldKind::Transform:
+        return "translation, rotation, scale";
+    case FieldKind::Frame:
+        return "16 numbers";
+    case FieldKind::GroupId:
+        return "group's name or null";
+    case FieldKind::DefIndex:
+        break;
+    }
+    return "";
+}
+
+const char* targetWord(EditTarget target) {
+    switch (target) {
+    case EditTarget::Light:
+    case EditTarget::Definition:
+    case EditTarget::Node:
+        return "light";
+    case EditTarget::Group:
+        return "group";
+    case EditTarget::Bookmark:
+        return "bookmark";
+    case EditTarget::Scene:
+        break;
+    }
+    return "scene";
+}
+
+std::string listFields(ListFormat format) {
+    Json list = Json::array();
+    std::string text, heading;
+    for (const EditField& field : editFields()) {
+        if (field.kind == FieldKind::DefIndex) continue; // 'make-unique' sets it
+        const bool isNumber = field.kind == FieldKind::Number || field.kind == FieldKind::OptionalNumber;
+        Json entry = {{"target", targetWord(field.target)},
+                      {"name", field.name},
+                      {"kind", kindWord(field.kind)},
+                      {"help", field.help}};
+        if (isNumber) entry["min"] = field.min, entry["max"] = field.max;
+        if (*field.unit) entry["unit"] = field.unit;
+        if (heading != targetWord(field.target))
+            text += fmt::format("{}{}\n", text.empty() ? "" : "\n", heading = targetWord(field.target));
+        const std::string bounds = isNumber ? fmt::format(" {:.4g} to {:.4g}", field.min, field.max) : "";
+        text += fmt::format("  {:<20} {} [{}{}{}{}]\n", field.name, field.help, kindWord(field.kind), bounds,
+                            *field.unit ? " " : "", field.unit);
+        list.push_back(std::move(entry));
+    }
+    return format == ListFormat::Json ? Json{{"fields", list}}.dump(2) + "\n" : text;
+}
+
+Result<Json> readScript(const std::string& path) {
+    const Result<std::string> text = readWholeFile(path);
+    if (!text) return Error{text.error()};
+    try {
+        return Json::parse(text.value());
+    } catch (const Json::exception& error) {
+        // The library's own tag in brackets says nothing to users.
+        const std::string what = error.what();
+        const std::size_t bracket = what.find("] ");
+        return Error{path + ": expected valid JSON, found a " +
+                     (bracket == what.npos ? what : what.substr(bracket + 2))};
+    }
+}
+
+ExitCode applyScript(const EditOptions& options) {
+    const Result<Json> script = readScript(options.script);
+    if (!script) return printError(script.error()), ExitCode::BadInput;
+    SessionOptions sessionOptions;
+    sessionOptions.import.loadImages = false; // nothing of them is edited
+    auto session = EditSession::open(options.scene, sessionOptions);
+    if (!session) return printError(session.error()), ExitCode::BadInput;
+    for (const std::string& warning : session.value()->scene().warnings)
+        printWarning(warning);
+    if (const auto error = runEditScript(*session.value(), script.value()))
+        return printError(options.script + ": " + error->message), ExitCode::BadInput;
+    const auto error =
+        options.output.empty() ? session.value()->save() : session.value()->saveAs(options.output);
+    if (error) return printError(error->message), ExitCode::CouldNotWork;
+    return ExitCode::Done;
+}
+
+ExitCode runEdit(const EditOptions& options) {
+    if (options.list) {
+        fmt::print("{}", listFields(options.json ? ListFormat::Json : ListFormat::Text));
+        return ExitCode::Done;
+    }
+    if (!options.script.empty()) {
+        if (!options.scene.empty()) return applyScript(options);
+        printError("expected a scene to edit: kilolux edit SCENE.glb --do " + options.script);
+        return ExitCode::BadInput;
+    }
+    const std::string name = options.scene.empty() ? "SCENE.glb" : "'" + options.scene + "'";
+    printError("the window does not exist yet; render to a file instead: kilolux render " + name +
+               " -o OUT.png");
+    return ExitCode::CouldNotWork;
+}
+
+} // namespace
+
 Command addEditCommand(CLI::App& app) {
-    CLI::App* edit = app.add_subcommand("edit", "Open the window (not there yet)");
-    auto scene = std::make_shared<std::string>();
-    edit->add_option("SCENE", *scene, "a .gltf or .glb file");
-    return [scene] {
-        const std::string name = scene->empty() ? "SCENE.glb" : "'" + *scene + "'";
-        printError("the window does not exist yet; render to a file instead: kilolux render " + name +
-                   " -o OUT.png");
-        return ExitCode::CouldNotWork;
-    };
+    CLI::App* edit =
+        app.add_subcommand("edit", "Edit a scene: in the window (not there yet), or by a list of edits");
+    auto options = std::make_shared<EditOptions>();
+    edit->footer(kFooter);
+    edit->add_option("SCENE", options->scene, "a .gltf or .glb file");
+    CLI::Option* script =
+        edit->add_option("--do", options->script, "a JSON file with edits to apply")->option_text("FILE");
+    edit->add_option("-o,--output", options->output, "save here instead of in place")
+        ->option_text("OUT")
+        ->needs(script);
+    CLI::Option* list = edit->add_flag("--list", options->list, "list the fields that can be edited");
+    edit->add_flag("--json", options->json, "with --list: as JSON")->needs(list);
+    return [options] { return runEdit(*options); };
 }
 
 } // namespace kilolux

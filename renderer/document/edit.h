@@ -73,7 +73,9 @@ Edit inverted(Edit edit);
 
 // Puts the edits into effect one after the other, or none of them: when a value before is not what the
 // document holds, a target does not exist, or the result breaks a rule (edit_rules.h).
-std::optional<Error> applyEdits(Scene& scene, std::span<const Edit> edits);
+// Rules may be left out between the steps of building one change.
+enum class Rules { Check, Skip };
+std::optional<Error> applyEdits(Scene& scene, std::span<const Edit> edits, Rules rules = Rules::Check);
 
 // The same backwards with each edit inverted.
 std::optional<Error> revertEdits(Scene& scene, std::span<const Edit> edits);
