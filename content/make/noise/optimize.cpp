@@ -14,9 +14,8 @@ namespace {
 // Sums are taken in this many lanes, in an order that does not depend on the compiler's vector width.
 constexpr int kLanes = 4;
 
-// Tuned on 32 x 32 x 32 at 300 to 400 proposals a pixel: thresholds of 0.5 to 1 leave 4 % less filtered error
-// than descent without one, thresholds of 6 and more are worse. Shares of the value range of 0.02 to 0.05
-// tie.
+// Tuned on 32 x 32 x 32 at 400 proposals a pixel: thresholds of 0.5 to 1 tie, 0.2 leaves 4 % more error after
+// one blurred frame and 6 leaves 9 % more. Least shares of the value range from 0.02 to 0.05 tie.
 constexpr double kFirstThreshold = 0.7;
 constexpr double kLeastReach = 0.03;
 
@@ -156,8 +155,8 @@ int Annealer<D>::proposePartner(int layer, int stratum, int reach) {
     return partner == stratum ? -1 : siteOfStratum_[layer * size_.area() + partner];
 }
 
-// The threshold falls to 0 in squares, and with it how far apart in value the swapped ones may be: late in
-// the search, when pixels are in place, exchanges of near values are those that still gain.
+// The threshold falls to 0, and with it how far apart in value the swapped ones may be: late in the search,
+// when pixels are in place, exchanges of near values are those that still gain.
 template<std::size_t D>
 void Annealer<D>::run() {
     const int side = noiseStrataSide<D>(size_.area());
@@ -187,6 +186,7 @@ template<std::size_t D>
 std::vector<NoiseValue<D>> optimize(NoiseSize size, const std::vector<NoiseFilter>& filters,
                                     const std::vector<NoiseValue<D>>& values, NoiseEffort effort) {
     assert(size.layers % kLanes == 0);
+    assert(D == 1 || noiseStrataSide<D>(size.area()) * noiseStrataSide<D>(size.area()) == size.area());
     const NoiseKernel kernel = makeNoiseKernel(filters, size.layers);
     Annealer<D> annealer(size, kernel, values, effort);
     annealer.run();
@@ -209,6 +209,9 @@ optimizePointMask(NoiseSize size, const std::vector<NoiseFilter>& filters, Noise
     return optimize(size, filters, spreadPoints(size.area(), size.layers, effort.seed), effort);
 }
 
+// Each filter alone would gain at the cost of the others: adapted to one blurred frame only, masks leave 0.13
+// of white noise's error there instead of 0.20, but 1.1 of it in a pixel's long history instead of 0.29 (32 x
+// 32 x 32, 100 proposals a pixel).
 std::vector<NoiseFilter> renderingFilters() {
     return {NoiseFilter{.weight = 1.0, .blurs = true, .alpha = 1.0},
             NoiseFilter{.weight = 1.0, .blurs = true, .alpha = 0.3},

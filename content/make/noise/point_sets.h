@@ -30,7 +30,7 @@ class NoiseRandom {
     std::uint64_t state_;
 };
 
-// Number `index` of `layers` layers of `area` values, [layer][rank].
+// `area` values for each of `layers` layers, [layer][rank]; both are powers of two, area at most 65536.
 std::vector<NoiseValue<1>> spreadNumbers(int area, int layers, std::uint32_t seed);
 std::vector<NoiseValue<2>> spreadPoints(int area, int layers, std::uint32_t seed);
 
