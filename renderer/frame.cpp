@@ -5,7 +5,7 @@ namespace kilolux {
 
 FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
     : resolveGBuffer(resources), depthPyramid(resources), lightGrid(resources), composite(resources),
-      accumulate(resources), toneMap(resources) {
+      toneMap(resources) {
     if (plan.producer == GBufferProducer::Raster) {
         rasterVisibility = std::make_unique<RasterVisibilityPass>(resources);
     } else {
@@ -21,8 +21,45 @@ FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
     } else {
         lightAll = std::make_unique<LightAllPass>(resources, plan.tracer);
     }
+    if (plan.denoise) {
+        denoiseTemporal = std::make_unique<DenoiseTemporalPass>(resources);
+        denoiseSpatial = std::make_unique<DenoiseSpatialPass>(resources);
+    }
+    if (plan.antiAlias) antiAlias = std::make_unique<AntiAliasPass>(resources);
+    if (plan.mean) accumulate = std::make_unique<AccumulatePass>(resources);
+    if (plan.settle) settle = std::make_unique<SettlePass>(resources);
     if (plan.transparent) transparent = std::make_unique<TransparentPass>(resources);
     if (plan.view != 0) debugView = std::make_unique<DebugViewPass>(resources);
+}
+
+void planFilters(FramePlan& plan, const Settings& settings) {
+    const PictureChoice picture = settings.picture;
+    if (!plan.stochastic()) return;
+    const bool filtered = picture == PictureChoice::Viewport || picture == PictureChoice::Denoised;
+    plan.denoise = settings.denoise && (filtered || isDenoiserView(plan.view));
+    plan.antiAlias = settings.antiAlias && filtered;
+    plan.mean = picture == PictureChoice::Viewport || picture == PictureChoice::Mean;
+    plan.settle = picture == PictureChoice::Viewport;
+}
+
+shared::DenoisingConstants denoisingConstants(const Settings& s) {
+    shared::DenoisingConstants c{};
+    c.diffuseFrames = float(s.diffuseFrames);
+    c.specularFrames = float(s.specularFrames);
+    c.leastFrames = float(s.leastFrames);
+    c.clipWidth = float(s.clipWidth);
+    c.spatialRadiusPx = float(s.spatialRadius);
+    c.spatialThreshold = float(s.spatialThreshold);
+    c.antiAliasFrames = float(s.antiAliasFrames);
+    c.antiAliasClip = float(s.antiAliasClip);
+    c.settleError = float(s.settleError);
+    return c;
+}
+
+const gpu::Image& shownPicture(const Targets& targets, const FramePlan& plan) {
+    if (plan.settle) return targets.viewportColor;
+    if (plan.mean) return targets.meanColor;
+    return plan.antiAlias ? targets.antiAliased : targets.sceneColor;
 }
 
 void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan, const gpu::Bindings& world,
@@ -41,10 +78,23 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
         passes.shadeSamples->record(frame);
         if (plan.countLights) passes.countLights->record(frame);
     }
-    passes.composite.record(frame);
-    if (passes.transparent) passes.transparent->record(frame);
-    passes.accumulate.record(frame, framesBefore);
-    passes.toneMap.record(frame);
+    const Targets& targets = frame.targets;
+    if (plan.denoise) {
+        passes.denoiseTemporal->record(frame);
+        passes.denoiseSpatial->record(frame);
+        passes.composite.record(frame, targets.denoisedDiffuse, targets.denoisedSpecular, targets.sceneColor);
+    } else {
+        passes.composite.record(frame, targets.litDiffuse, targets.litSpecular, targets.sceneColor);
+    }
+    if (plan.raw()) passes.composite.record(frame, targets.litDiffuse, targets.litSpecular, targets.rawColor);
+    if (passes.transparent) {
+        passes.transparent->record(frame, targets.sceneColor);
+        if (plan.raw()) passes.transparent->record(frame, targets.rawColor);
+    }
+    if (passes.antiAlias) passes.antiAlias->record(frame);
+    if (passes.accumulate) passes.accumulate->record(frame, framesBefore);
+    if (passes.settle) passes.settle->record(frame);
+    passes.toneMap.record(frame, shownPicture(targets, plan));
     if (passes.debugView) passes.debugView->record(frame, depthScaleM);
 }
 

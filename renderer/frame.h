@@ -23,6 +23,12 @@ struct FramePlan {
     std::uint32_t choices = 1; // samples of one evaluation of the candidate lights
     bool writeLists = true;    // false: frozen
     bool countLights = true;   // lights in range are counted, for statistics or a view
+    // What becomes of noisy light. Methods that are references by themselves only average.
+    bool denoise = false;
+    bool antiAlias = false;
+    bool mean = true;                            // running mean of the frames as sampled
+    bool settle = false;                         // the mean replaces the filtered picture as it converges
+    bool raw() const { return denoise && mean; } // both the filtered and the sampled picture are needed
     bool stochastic() const { return method == Method::Stochastic; }
 };
 
@@ -42,12 +48,25 @@ struct FramePasses {
     std::unique_ptr<VisibleListPass> visibleList;
     std::unique_ptr<ShadeSamplesPass> shadeSamples;
     std::unique_ptr<CountLightsPass> countLights;
+    std::unique_ptr<DenoiseTemporalPass> denoiseTemporal;
+    std::unique_ptr<DenoiseSpatialPass> denoiseSpatial;
     CompositePass composite;
     std::unique_ptr<TransparentPass> transparent;
-    AccumulatePass accumulate;
+    std::unique_ptr<AntiAliasPass> antiAlias;
+    std::unique_ptr<AccumulatePass> accumulate;
+    std::unique_ptr<SettlePass> settle;
     ToneMapPass toneMap;
     std::unique_ptr<DebugViewPass> debugView;
 };
+
+// The filters that the settings ask for, and no others.
+void planFilters(FramePlan& plan, const Settings& settings);
+
+// The image that a plan shows.
+const gpu::Image& shownPicture(const Targets& targets, const FramePlan& plan);
+
+// The settings of the filters as shaders read them.
+shared::DenoisingConstants denoisingConstants(const Settings& settings);
 
 // Records one frame. `framesBefore`: frames that the running mean holds already. `world`: bindings of the
 // tracer.

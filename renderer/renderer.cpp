@@ -198,12 +198,23 @@ std::optional<Error> Renderer::Impl::prepare() {
     features[shared::CHOICE_DEMODULATED] = plan.stochastic();
     features[shared::CHOICE_LANES] = device.subgroupSize();
     plan.choices = constants.sampling.choices;
+    constants.denoising = denoisingConstants(options.settings);
+    planFilters(plan, options.settings);
+    features[shared::CHOICE_COUNT_SAMPLES] = plan.stochastic();
+    features[shared::CHOICE_SPARSE_NEIGHBOURS] = device.isCpu();
     TargetNeeds needs;
     needs.raster = plan.producer == GBufferProducer::Raster;
     needs.debugView = plan.view != shared::VIEW_FINAL;
     needs.history = plan.stochastic();
     needs.rays = plan.stochastic() ? constants.sampling.rays : 0;
     needs.halfChoices = plan.halfSampling ? constants.sampling.choices : 0;
+    needs.denoised = plan.denoise;
+    needs.denoiseTrace = plan.denoise && isDenoiserView(plan.view);
+    needs.antiAliased = plan.antiAlias;
+    needs.rawColor = plan.raw();
+    needs.mean = plan.mean;
+    needs.counted = plan.mean && plan.stochastic();
+    needs.settled = plan.settle;
     targets = std::make_unique<Targets>(device, width, height, needs);
     if (plan.stochastic()) {
         if (gpuScene->lightCount() > shared::SAMPLE_LIGHT_LIMIT) {
@@ -245,6 +256,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, int widthPx, int heightPx, gp
                                   ? filterOffset(options.settings.pixelFilter, index, options.seed)
                                   : glm::dvec2(0.0);
     if (historyValid) targets->turnHistory();
+    if (historyValid && !(options.settings.freezeHistory && frozen(index))) targets->turnFilteredHistory();
     const shared::FrameConstants before = constants;
     setCamera(constants, camera, gpuScene->anchor(), widthPx, heightPx, jitter);
     constants.tileChunks = device.isCpu() ? std::max(1u, std::thread::hardware_concurrency()) : 1u;
@@ -327,7 +339,7 @@ void Renderer::Impl::compilePipelines() {
 Picture Renderer::Impl::readPicture() const {
     Picture picture{options.width, options.height, {}, {}};
     const FloatImage values =
-        toFloatImage(plan.view == shared::VIEW_FINAL ? targets->meanColor : targets->viewValues);
+        toFloatImage(plan.view == shared::VIEW_FINAL ? shownPicture(*targets, plan) : targets->viewValues);
     const float scale = plan.view == shared::VIEW_FINAL ? 1.0f / constants.exposure : 1.0f;
     const std::vector<std::byte> display = targets->display.download();
     const std::size_t pixels = std::size_t(options.width) * std::size_t(options.height);

@@ -62,6 +62,17 @@ struct Settings {
     DimLights dimLights = DimLights::Roulette;
     double dimThreshold = 0.002;
     PictureChoice picture = PictureChoice::Viewport;
+    double settleError = 0.02;
+    bool denoise = true;
+    double diffuseFrames = 24.0;
+    double specularFrames = 16.0;
+    double leastFrames = 4.0;
+    double clipWidth = 0.6;
+    double spatialRadius = 12.0;
+    double spatialThreshold = 0.05;
+    bool antiAlias = true;
+    double antiAliasFrames = 32.0;
+    double antiAliasClip = 1.25;
     int freezeFrame = 0;
     bool freezeNoise = false;
     bool freezeLists = false;

@@ -58,9 +58,32 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
     if (needs.halfChoices > 0)
         samplesHalf = makeLayers("samplesHalf", VK_FORMAT_R32G32B32A32_UINT, needs.halfChoices, 2);
     sceneColor = make("sceneColor", VK_FORMAT_R32G32B32A32_SFLOAT, attachment);
-    meanColor = make("meanColor", VK_FORMAT_R32G32B32A32_SFLOAT);
+    makeFiltered(make, needs);
     if (needs.debugView) viewValues = make("viewValues", VK_FORMAT_R32G32B32A32_SFLOAT);
     display = make("display", VK_FORMAT_R8G8B8A8_UNORM);
+}
+
+void Targets::makeFiltered(const Make& make, const TargetNeeds& needs) {
+    constexpr VkFormat half = VK_FORMAT_R16G16B16A16_SFLOAT, full = VK_FORMAT_R32G32B32A32_SFLOAT;
+    if (needs.denoised) {
+        historyDiffuse = make("historyDiffuse", half, 0);
+        historySpecular = make("historySpecular", half, 0);
+        historyMoments = make("historyMoments", half, 0);
+        previousDiffuse = make("previousDiffuse", half, 0);
+        previousSpecular = make("previousSpecular", half, 0);
+        previousMoments = make("previousMoments", half, 0);
+        denoisedDiffuse = make("denoisedDiffuse", half, 0);
+        denoisedSpecular = make("denoisedSpecular", half, 0);
+    }
+    if (needs.denoiseTrace) denoiseTrace = make("denoiseTrace", half, 0);
+    if (needs.antiAliased) {
+        antiAliased = make("antiAliased", half, 0);
+        previousAntiAliased = make("previousAntiAliased", half, 0);
+    }
+    if (needs.rawColor) rawColor = make("rawColor", full, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    if (needs.mean) meanColor = make("meanColor", full, 0);
+    if (needs.counted) meanMoments = make("meanMoments", VK_FORMAT_R32G32_SFLOAT, 0);
+    if (needs.settled) viewportColor = make("viewportColor", half, 0);
 }
 
 void Targets::turnHistory() {
@@ -69,12 +92,23 @@ void Targets::turnHistory() {
     std::swap(gNormals, previousNormals);
 }
 
+void Targets::turnFilteredHistory() {
+    std::swap(historyDiffuse, previousDiffuse);
+    std::swap(historySpecular, previousSpecular);
+    std::swap(historyMoments, previousMoments);
+    std::swap(antiAliased, previousAntiAliased);
+}
+
 std::vector<const gpu::Image*> Targets::all() const {
     std::vector<const gpu::Image*> result;
     for (const gpu::Image* image :
-         {&visibility,  &rasterDepth,   &gDepth,          &gNormals,    &gMaterial,  &gEmissive,  &pyramid,
-          &motion,      &previousDepth, &previousNormals, &samplesHalf, &samples,    &rayResults, &litDiffuse,
-          &litSpecular, &lightCounts,   &sceneColor,      &meanColor,   &viewValues, &display}) {
+         {&visibility,          &rasterDepth,     &gDepth,          &gNormals,         &gMaterial,
+          &gEmissive,           &pyramid,         &motion,          &previousDepth,    &previousNormals,
+          &samplesHalf,         &samples,         &rayResults,      &litDiffuse,       &litSpecular,
+          &historyDiffuse,      &historySpecular, &historyMoments,  &previousDiffuse,  &previousSpecular,
+          &previousMoments,     &denoiseTrace,    &denoisedDiffuse, &denoisedSpecular, &lightCounts,
+          &sceneColor,          &rawColor,        &meanColor,       &meanMoments,      &antiAliased,
+          &previousAntiAliased, &viewportColor,   &viewValues,      &display}) {
         if (*image) result.push_back(image);
     }
     return result;

@@ -4,6 +4,7 @@
 
 #include "renderer/gpu/resource.h"
 
+#include <functional>
 #include <vector>
 
 namespace kilolux {
@@ -16,6 +17,12 @@ struct TargetNeeds {
     std::uint32_t rays = 0;        // samples per pixel of the stochastic method; 0: another method
     std::uint32_t halfChoices = 0; // samples per half-resolution pixel; 0: full resolution
     bool denoised = false;
+    bool denoiseTrace = false; // a view shows what the denoiser did
+    bool antiAliased = false;
+    bool mean = false;     // the running mean of the frames
+    bool rawColor = false; // the mean is of other pictures than the one that is filtered
+    bool counted = false;  // it counts samples per pixel
+    bool settled = false;  // both are blended
 };
 
 struct Targets {
@@ -33,19 +40,37 @@ struct Targets {
     gpu::Image motion;        // RGBA16F: see shaders/lib/reprojection.glsl; only with history
     gpu::Image previousDepth; // gDepth of the frame before
     gpu::Image previousNormals;
-    gpu::Image samples;     // RGBA32UI, a layer per ray: see shaders/shared/sampling.h
-    gpu::Image samplesHalf; // the same at half resolution, a layer per choice
-    gpu::Image rayResults;  // R32UI, a layer per ray
+    gpu::Image samples;         // RGBA32UI, a layer per ray: see shaders/shared/sampling.h
+    gpu::Image samplesHalf;     // the same at half resolution, a layer per choice
+    gpu::Image rayResults;      // R32UI, a layer per ray
+    gpu::Image historyDiffuse;  // RGBA16F: exposed light like litDiffuse, and the frames that it holds
+    gpu::Image historySpecular; // the same of litSpecular
+    gpu::Image historyMoments;  // RGBA16F: mean and deviation of luminance, diffuse and specular
+    gpu::Image previousDiffuse, previousSpecular, previousMoments;
+    gpu::Image denoiseTrace;    // RGBA16F, for views: see shaders/passes/denoise_temporal.comp
+    gpu::Image denoisedDiffuse; // RGBA16F: as historyDiffuse, filtered in space
+    gpu::Image denoisedSpecular;
     gpu::Image lightCounts; // R32UI: lights in range, lights seen << 16
-    gpu::Image sceneColor;  // RGBA32F, exposed: this frame's picture
-    gpu::Image meanColor;   // RGBA32F, exposed: mean of the frames
-    gpu::Image viewValues;  // RGBA32F: raw values of a debug view; only with one
-    gpu::Image display;     // RGBA8, sRGB-encoded
+    gpu::Image sceneColor;  // RGBA32F, exposed: this frame's picture, denoised where the plan says so
+    gpu::Image rawColor;    // RGBA32F, exposed: the same of light as it was sampled
+    gpu::Image meanColor;   // RGBA32F, exposed: mean of the frames as sampled, and how many
+    gpu::Image meanMoments; // RG32F: mean and variance of their luminance
+    gpu::Image antiAliased; // RGBA16F, exposed, and the frames that it holds
+    gpu::Image previousAntiAliased;
+    gpu::Image viewportColor; // RGBA16F, exposed, and the mean's share in it
+    gpu::Image viewValues;    // RGBA32F: raw values of a debug view; only with one
+    gpu::Image display;       // RGBA8, sRGB-encoded
 
     // What this frame wrote becomes what the next one finds as previous.
     void turnHistory();
+    // The same of what the filters keep, which may be frozen by itself.
+    void turnFilteredHistory();
 
     std::vector<const gpu::Image*> all() const; // those that exist
+
+  private:
+    using Make = std::function<gpu::Image(const char* name, VkFormat format, VkImageUsageFlags more)>;
+    void makeFiltered(const Make& make, const TargetNeeds& needs);
 };
 
 } // namespace kilolux

@@ -34,6 +34,11 @@ constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
     {"list-age", "stochastic: mean frames since the listed lights were last seen, 0 to 15"},
     {"reprojection", "stochastic: red: not found in the previous frame; green: no neighbour fitted at half "
                      "resolution; blue: a light was just edited"},
+    {"history-length", "frames of diffuse light that the denoiser holds, 0 to 32"},
+    {"deviation", "standard deviation of diffuse light over the frames, of its mean, 0 to 4"},
+    {"rejected-history", "history that the denoiser cut: red none was found, green diffuse, blue specular"},
+    {"denoised-diffuse", "diffuse light after the denoiser, nit / pi"},
+    {"denoised-specular", "specular light after the denoiser, nit"},
 }};
 
 constexpr std::array<NamedChoice, 4> kMethods{{
@@ -59,6 +64,10 @@ std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::stri
         if (choices[i].name == name) return int(i);
     }
     return std::nullopt;
+}
+
+bool isDenoiserView(int view) {
+    return view >= shared::VIEW_HISTORY_LENGTH && view <= shared::VIEW_DENOISED_SPECULAR;
 }
 
 } // namespace kilolux

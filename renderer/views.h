@@ -10,6 +10,8 @@ namespace kilolux {
 std::span<const NamedChoice> viewChoices();   // index = VIEW_*
 std::span<const NamedChoice> methodChoices(); // index = Method
 
+bool isDenoiserView(int view); // shows what only the denoiser makes
+
 enum class Method { AllLights, ReferenceSplit, ReferenceTrue, Stochastic };
 
 // Index of a name; empty text gives 0.

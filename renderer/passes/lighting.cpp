@@ -50,17 +50,18 @@ CompositePass::CompositePass(gpu::PassResources& resources)
              {"ltcScales"},
              {"sceneColorOut", Access::Write}}) {}
 
-void CompositePass::record(FrameContext& frame) {
+void CompositePass::record(FrameContext& frame, const gpu::Image& diffuse, const gpu::Image& specular,
+                           const gpu::Image& color) {
     const Targets& targets = frame.targets;
     pass_.record(frame.commands, frame.features,
                  {{"Frame", frame.frameBuffer},
                   {"gNormals", targets.gNormals},
                   {"gMaterial", targets.gMaterial},
                   {"gEmissive", targets.gEmissive},
-                  {"litDiffuse", targets.litDiffuse},
-                  {"litSpecular", targets.litSpecular},
+                  {"litDiffuse", diffuse},
+                  {"litSpecular", specular},
                   frame.scene.environmentBrdf(),
-                  {"sceneColorOut", targets.sceneColor}},
+                  {"sceneColorOut", color}},
                  frame.tiles());
 }
 

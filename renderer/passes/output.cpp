@@ -1,29 +1,16 @@
-// Running mean, display transform and debug views.
+// Display transform and debug views.
 #include "renderer/passes/passes.h"
 
 namespace kilolux {
 
 using gpu::Access;
 
-AccumulatePass::AccumulatePass(gpu::PassResources& resources)
-    : pass_(resources, "accumulate", {{"Frame"}, {"sceneColor"}, {"meanColor", Access::ReadWrite}}) {}
-
-void AccumulatePass::record(FrameContext& frame, std::uint32_t framesBefore) {
-    pass_.record(frame.commands, frame.features,
-                 {{"Frame", frame.frameBuffer},
-                  {"sceneColor", frame.targets.sceneColor},
-                  {"meanColor", frame.targets.meanColor}},
-                 framesBefore, frame.tiles());
-}
-
 ToneMapPass::ToneMapPass(gpu::PassResources& resources)
-    : pass_(resources, "tone_map", {{"Frame"}, {"meanColor"}, {"displayOut", Access::Write}}) {}
+    : pass_(resources, "tone_map", {{"Frame"}, {"picture"}, {"displayOut", Access::Write}}) {}
 
-void ToneMapPass::record(FrameContext& frame) {
+void ToneMapPass::record(FrameContext& frame, const gpu::Image& picture) {
     pass_.record(frame.commands, frame.features,
-                 {{"Frame", frame.frameBuffer},
-                  {"meanColor", frame.targets.meanColor},
-                  {"displayOut", frame.targets.display}},
+                 {{"Frame", frame.frameBuffer}, {"picture", picture}, {"displayOut", frame.targets.display}},
                  frame.tiles());
 }
 
@@ -39,6 +26,11 @@ DebugViewPass::DebugViewPass(gpu::PassResources& resources)
              {"litSpecular"},
              {"lightCounts"},
              {"pyramid"},
+             {"historyDiffuse", Access::Read, gpu::Presence::Optional},
+             {"historyMoments", Access::Read, gpu::Presence::Optional},
+             {"denoiseTrace", Access::Read, gpu::Presence::Optional},
+             {"denoisedDiffuse", Access::Read, gpu::Presence::Optional},
+             {"denoisedSpecular", Access::Read, gpu::Presence::Optional},
              {"ltcScales"},
              {"samples", Access::Read, gpu::Presence::Optional},
              {"rayResults", Access::Read, gpu::Presence::Optional},
@@ -54,8 +46,17 @@ void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
                     {"rayResults", targets.rayResults},
                     {"visibleLists", frame.lists->current()}};
     }
+    gpu::Bindings filters;
+    if (targets.denoiseTrace) {
+        filters = {{"historyDiffuse", targets.historyDiffuse},
+                   {"historyMoments", targets.historyMoments},
+                   {"denoiseTrace", targets.denoiseTrace},
+                   {"denoisedDiffuse", targets.denoisedDiffuse},
+                   {"denoisedSpecular", targets.denoisedSpecular}};
+    }
     pass_.record(frame.commands, frame.features,
                  joined({sampling,
+                         filters,
                          {{"Frame", frame.frameBuffer},
                           {"visibility", targets.visibility},
                           {"gDepth", targets.gDepth},

@@ -136,10 +136,29 @@ class CountLightsPass {
     gpu::ComputePass pass_;
 };
 
+class DenoiseTemporalPass {
+  public:
+    explicit DenoiseTemporalPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+class DenoiseSpatialPass {
+  public:
+    explicit DenoiseSpatialPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
 class CompositePass {
   public:
     explicit CompositePass(gpu::PassResources& resources);
-    void record(FrameContext& frame);
+    void record(FrameContext& frame, const gpu::Image& diffuse, const gpu::Image& specular,
+                const gpu::Image& color);
 
   private:
     gpu::ComputePass pass_;
@@ -149,13 +168,23 @@ class CompositePass {
 class TransparentPass {
   public:
     explicit TransparentPass(gpu::PassResources& resources);
-    void record(FrameContext& frame);
+    void record(FrameContext& frame, const gpu::Image& color);
 
   private:
-    void draw(FrameContext& frame, gpu::GraphicsPass& pass, const std::vector<DrawItem>& items);
+    void draw(FrameContext& frame, gpu::GraphicsPass& pass, const std::vector<DrawItem>& items,
+              const gpu::Image& color);
 
     gpu::GraphicsPass tint_;
     gpu::GraphicsPass emission_;
+};
+
+class AntiAliasPass {
+  public:
+    explicit AntiAliasPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
 };
 
 class AccumulatePass {
@@ -167,10 +196,19 @@ class AccumulatePass {
     gpu::ComputePass pass_;
 };
 
+class SettlePass {
+  public:
+    explicit SettlePass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
 class ToneMapPass {
   public:
     explicit ToneMapPass(gpu::PassResources& resources);
-    void record(FrameContext& frame);
+    void record(FrameContext& frame, const gpu::Image& picture);
 
   private:
     gpu::ComputePass pass_;

@@ -17,17 +17,17 @@ TransparentPass::TransparentPass(gpu::PassResources& resources)
     : tint_(makePass(resources, "forward_tint", gpu::ColorTarget::Blend::Multiply)),
       emission_(makePass(resources, "forward_emission", gpu::ColorTarget::Blend::Add)) {}
 
-void TransparentPass::draw(FrameContext& frame, gpu::GraphicsPass& pass, const std::vector<DrawItem>& items) {
+void TransparentPass::draw(FrameContext& frame, gpu::GraphicsPass& pass, const std::vector<DrawItem>& items,
+                           const gpu::Image& color) {
     frame.commands.use(frame.scene.indexBuffer(), gpu::Usage::IndexRead);
     pass.record(frame.commands, frame.features,
                 joined({{{"Frame", frame.frameBuffer}, {"gDepth", frame.targets.gDepth}},
                         frame.scene.surfaceBindings()}),
-                {}, frame.constants.size.x, frame.constants.size.y,
-                {{.image = &frame.targets.sceneColor, .load = true}}, {},
+                {}, frame.constants.size.x, frame.constants.size.y, {{.image = &color, .load = true}}, {},
                 [&](VkCommandBuffer commands) { drawVisible(commands, frame, items); });
 }
 
-void TransparentPass::record(FrameContext& frame) {
+void TransparentPass::record(FrameContext& frame, const gpu::Image& color) {
     std::vector<DrawItem> items = frame.scene.transparentDraws();
     if (items.empty()) return;
     const glm::dvec3 camera = glm::dvec3(frame.constants.originBase) + frame.scene.anchor();
@@ -42,11 +42,11 @@ void TransparentPass::record(FrameContext& frame) {
     for (const DrawItem& item : items) {
         run.push_back(item);
         if (!item.emits) continue;
-        draw(frame, tint_, run);
-        draw(frame, emission_, {item});
+        draw(frame, tint_, run, color);
+        draw(frame, emission_, {item}, color);
         run.clear();
     }
-    if (!run.empty()) draw(frame, tint_, run);
+    if (!run.empty()) draw(frame, tint_, run, color);
 }
 
 } // namespace kilolux

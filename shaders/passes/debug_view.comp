@@ -29,10 +29,17 @@ uniform sampler2D pyramid;
 uniform usampler2DArray samples;
 uniform usampler2DArray rayResults;
 uniform usamplerBuffer visibleLists; // this frame's
+uniform sampler2D historyDiffuse;
+uniform sampler2D historyMoments;
+uniform sampler2D denoiseTrace;
+uniform sampler2D denoisedDiffuse;
+uniform sampler2D denoisedSpecular;
 layout(rgba8) writeonly uniform image2D displayOut;
 layout(rgba32f) writeonly uniform image2D viewValuesOut;
 
 const float kCountScale = 64.0;
+const float kFramesScale = 32.0;
+const float kDeviationScale = 4.0;
 
 // Half of the scale at depthScaleM, its end at infinity.
 float depthShare(float depthM) {
@@ -84,6 +91,28 @@ vec3 showSampling(uvec2 pixel, out vec3 value) {
     return amountColor(value.x / 15.0);
 }
 
+// The views of the denoiser.
+vec3 showFilters(ivec2 at, Surface s, out vec3 value) {
+    if (kView == VIEW_HISTORY_LENGTH) {
+        value = vec3(texelFetch(historyDiffuse, at, 0).a);
+        return amountColor(value.x / kFramesScale);
+    }
+    if (kView == VIEW_DEVIATION) {
+        vec4 moments = texelFetch(historyMoments, at, 0);
+        value = vec3(moments.y / max(moments.x, 1.0e-4));
+        return amountColor(value.x / kDeviationScale);
+    }
+    if (kView == VIEW_REJECTED_HISTORY) {
+        value = 1.0 - texelFetch(denoiseTrace, at, 0).zxy;
+        return srgbFromLinear(value);
+    }
+    value = kView == VIEW_DENOISED_DIFFUSE ? texelFetch(denoisedDiffuse, at, 0).rgb
+                                           : texelFetch(denoisedSpecular, at, 0).rgb * environmentBrdfAt(s, uvec2(at));
+    vec3 shown = srgbFromLinear(clamp(toneMapNeutral(value), 0.0, 1.0));
+    value /= frame.exposure;
+    return shown;
+}
+
 void main() {
     uvec2 pixel = dispatchedPixel();
     if (!isInPicture(pixel)) return;
@@ -130,6 +159,7 @@ void main() {
         shown = amountColor(value.x);
     }
     if (kView >= VIEW_CHOSEN_LIGHT && kView <= VIEW_REPROJECTION) shown = showSampling(pixel, value);
+    if (kView >= VIEW_HISTORY_LENGTH && kView <= VIEW_DENOISED_SPECULAR) shown = showFilters(at, s, value);
     if (depthM >= DEPTH_SKY) shown = vec3(0.0);
     imageStore(displayOut, at, vec4(shown, 1.0));
     imageStore(viewValuesOut, at, vec4(value, 1.0));

@@ -2,6 +2,7 @@
 #ifndef KILOLUX_SHARED_FRAME_H
 #define KILOLUX_SHARED_FRAME_H
 #include "base.h"
+#include "denoising.h"
 #include "light_grid.h"
 #include "sampling.h"
 
@@ -40,6 +41,7 @@ struct FrameConstants {
     float exposureRatio; // exposure over the one that history was written with
     uint historyValid;   // 0: the first frame, or the first after a cut
     SamplingConstants sampling;
+    DenoisingConstants denoising;
 };
 
 KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface

@@ -28,7 +28,12 @@ const int VIEW_SAMPLE_WEIGHT = 19;
 const int VIEW_LIST_LENGTH = 20;
 const int VIEW_LIST_AGE = 21;
 const int VIEW_REPROJECTION = 22;
-const int VIEW_COUNT = 23;
+const int VIEW_HISTORY_LENGTH = 23; // these to VIEW_DENOISED_SPECULAR are the denoiser's
+const int VIEW_DEVIATION = 24;
+const int VIEW_REJECTED_HISTORY = 25;
+const int VIEW_DENOISED_DIFFUSE = 26;
+const int VIEW_DENOISED_SPECULAR = 27;
+const int VIEW_COUNT = 28;
 
 KX_SHARED_END
 #endif

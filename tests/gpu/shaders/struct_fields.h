@@ -13,12 +13,15 @@
     F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
     F(size) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
     F(rasterized) F(grid) F(steadyClipFromWorld) F(previousClipFromWorld) F(depthRow) F(previousDepthRow) \
-    F(previousSize) F(previousTiles) F(exposureRatio) F(historyValid) F(sampling)
+    F(previousSize) F(previousTiles) F(exposureRatio) F(historyValid) F(sampling) F(denoising)
 #define FIELDS_SamplingConstants(F) \
     F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(hiddenShare) \
     F(missHiddenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) \
     F(cellCandidates) F(missCandidates) F(dimThreshold) F(dimMode) F(listLength) F(listMemory) \
     F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
+#define FIELDS_DenoisingConstants(F) \
+    F(diffuseFrames) F(specularFrames) F(leastFrames) F(clipWidth) F(spatialRadiusPx) F(spatialThreshold) \
+    F(antiAliasFrames) F(antiAliasClip) F(settleError)
 #define FIELDS_InstanceRows(F) F(row0) F(row1) F(row2)
 #define FIELDS_GridConstants(F) \
     F(fineSize) F(coarseSize) F(firstDepthM) F(slicesPerOctave) F(lastDepthM) F(capacity) F(enabled) \

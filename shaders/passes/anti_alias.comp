@@ -1,0 +1,91 @@
+#version 460
+// Temporal anti-aliasing: jittered frames averaged where they belong (Karis, "High Quality Temporal Supersampling",
+// SIGGRAPH 2014), history clipped to the variance of the 3 x 3 neighbourhood in YCoCg (Salvi, GDC 2016). Jitter is
+// drawn from the pixel filter, so frames count alike; a still picture holds more and more of them.
+#include "shared/features.h"
+#include "lib/dispatch.glsl"
+#include "lib/history.glsl"
+#include "lib/reprojection.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D gDepth;
+uniform sampler2D sceneColor;
+uniform sampler2D previousAntiAliased; // filtered linearly
+layout(rgba16f) writeonly uniform image2D antiAliasedOut;
+
+const float kLeastFrames = 4.0;  // that remain of a history which was clipped far
+const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
+const float kStillPx = 1.0 / 64.0;
+
+// Light up to display white counts in full, so that edges get the mean of both sides; brighter light less, or
+// a single lamp's pixel would spoil many.
+float displayWeight(float y) {
+    return 1.0 / max(y, 1.0);
+}
+
+// Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
+vec4 historySharp(vec2 uv) {
+    vec2 size = vec2(textureSize(previousAntiAliased, 0));
+    vec2 at = uv * vec2(frame.previousSize) - 0.5;
+    vec2 corner = floor(at), f = at - corner;
+    vec2 w0 = f * (-0.5 + f * (1.0 - 0.5 * f)), w1 = 1.0 + f * f * (-2.5 + 1.5 * f);
+    vec2 w2 = f * (0.5 + f * (2.0 - 1.5 * f)), w3 = f * f * (-0.5 + 0.5 * f);
+    vec2 w12 = w1 + w2;
+    vec2 lowest = vec2(0.5), highest = vec2(frame.previousSize) - 0.5;
+    vec2 p0 = clamp(corner - 0.5, lowest, highest) / size, p3 = clamp(corner + 2.5, lowest, highest) / size;
+    vec2 p12 = clamp(corner + 0.5 + w2 / w12, lowest, highest) / size;
+    vec4 sum = textureLod(previousAntiAliased, p12, 0.0) * (w12.x * w12.y);
+    float weight = w12.x * w12.y;
+    sum += textureLod(previousAntiAliased, vec2(p0.x, p12.y), 0.0) * (w0.x * w12.y);
+    sum += textureLod(previousAntiAliased, vec2(p3.x, p12.y), 0.0) * (w3.x * w12.y);
+    sum += textureLod(previousAntiAliased, vec2(p12.x, p0.y), 0.0) * (w12.x * w0.y);
+    sum += textureLod(previousAntiAliased, vec2(p12.x, p3.y), 0.0) * (w12.x * w3.y);
+    weight += (w0.x + w3.x) * w12.y + w12.x * (w0.y + w3.y);
+    return max(sum / weight, vec4(0.0));
+}
+
+void main() {
+    uvec2 pixel = dispatchedPixel();
+    if (!isInPicture(pixel)) return;
+    ivec2 at = ivec2(pixel);
+    vec3 color = storableLight(texelFetch(sceneColor, at, 0).rgb), now = yCoCgFromRgb(color);
+    // The nearest surface of the neighbourhood says where to look: edges move with what is in front.
+    vec3 mean = vec3(0.0), square = vec3(0.0);
+    float nearestM = DEPTH_SKY;
+    ivec2 nearest = at;
+    for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+            ivec2 other = clamp(at + ivec2(x, y), ivec2(0), ivec2(frame.size) - 1);
+            vec3 c = yCoCgFromRgb(storableLight(texelFetch(sceneColor, other, 0).rgb));
+            mean += c;
+            square += c * c;
+            float depthM = texelFetch(gDepth, other, 0).x;
+            if (depthM < nearestM) {
+                nearestM = depthM;
+                nearest = other;
+            }
+        }
+    }
+    mean /= 9.0;
+    vec3 extent = frame.denoising.antiAliasClip * sqrt(max(square / 9.0 - mean * mean, vec3(0.0)));
+
+    Reprojection r = reproject(uvec2(nearest));
+    r.uv += (vec2(pixel) - vec2(nearest)) / vec2(frame.size);
+    float frames = 1.0;
+    if (r.onScreen && all(greaterThanEqual(r.uv, vec2(0.0))) && all(lessThan(r.uv, vec2(1.0)))) {
+        vec2 movedPx = abs(r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5);
+        bool still = max(movedPx.x, movedPx.y) < kStillPx;
+        vec4 history = readHistory(still ? texelFetch(previousAntiAliased, at, 0) : historySharp(r.uv));
+        vec3 before = yCoCgFromRgb(history.rgb);
+        // Towards the middle of the box until inside, which keeps the hue better than clamping by component.
+        vec3 out3 = abs(before - mean) / max(extent, vec3(1.0e-5));
+        float far = max(out3.x, max(out3.y, out3.z));
+        vec3 clipped = far > 1.0 ? mean + (before - mean) / far : before;
+        float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));
+        frames = min(history.a + 1.0, mix(kLeastFrames, frame.denoising.antiAliasFrames, confidence));
+        float wNow = displayWeight(now.x), wBefore = displayWeight(clipped.x) * (frames - 1.0);
+        now = (now * wNow + clipped * wBefore) / (wNow + wBefore);
+    }
+    vec3 result = roundedToHalf(storableLight(rgbFromYCoCg(now)), pixelSeed(pixel, frame.frame, frame.seed ^ 0xaau));
+    imageStore(antiAliasedOut, at, vec4(result, frames));
+}

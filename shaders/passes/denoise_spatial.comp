@@ -1,0 +1,149 @@
+#version 460
+// Spatial filter of what the temporal one left noisy (the MegaLights talk, SIGGRAPH 2025, "Spatial Filter"): one
+// sparse disk of taps, turned per pixel and frame; depth, normal and deviation stop it at edges (Schied et al.,
+// "Spatiotemporal Variance-Guided Filtering", 2017, section 4.4). Its result is shown and never fed back.
+//
+// Every weight is the same seen from either of its two pixels, and taps pull the pixel towards them rather than
+// being normalized: what one pixel gives away another one gets, so energy stays. The first frames of a history
+// are the exception: more taps, and sums in tone-mapped space, which darkens (Karis, "Tone Mapping", 2013).
+#include "shared/features.h"
+#include "lib/dispatch.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/filtered_light.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D gDepth;
+uniform usampler2D gNormals;
+uniform usampler2D gMaterial;
+uniform sampler2D historyDiffuse;
+uniform sampler2D historySpecular;
+uniform sampler2D historyMoments;
+layout(rgba16f) writeonly uniform image2D denoisedDiffuseOut;
+layout(rgba16f) writeonly uniform image2D denoisedSpecularOut;
+
+const float kNewFrames = 4.0;    // up to which a history counts as new
+const float kTaps = 8.0;
+const float kTapsNew = 16.0;     // where it is new
+const float kDeviations = 3.0;   // apart at which two pixels no longer mix
+const float kDarkest = 1.0e-3;   // of display white: noise below is not seen
+const float kGoldenAngleRad = 2.39996323;
+const float kPlanePx = 1.5;      // distance from the other's plane, in pixels, at which a weight is 0
+const float kRoughLobe = 0.4;    // roughness from which on specular light takes the whole radius
+
+struct Place {
+    vec3 positionWs;
+    vec3 normalWs;
+    vec3 geoNormalWs;
+    float depthM;
+    float roughness;
+};
+
+bool loadPlace(ivec2 at, out Place place) {
+    place.depthM = texelFetch(gDepth, at, 0).x;
+    if (place.depthM >= DEPTH_SKY) return false;
+    CameraRay camera = cameraRay(uvec2(at));
+    place.positionWs = camera.originWs + camera.dir * place.depthM;
+    uvec2 normals = texelFetch(gNormals, at, 0).xy;
+    place.normalWs = unpackOct16(normals.x);
+    place.geoNormalWs = unpackOct16(normals.y);
+    place.roughness = float(texelFetch(gMaterial, at, 0).y & 0xffffu) * (1.0 / 65535.0);
+    return true;
+}
+
+// One signal at one pixel: light, standard error of its luminance, and how much it wants to be filtered.
+struct Signal {
+    vec3 rgb;
+    float y;
+    float error;
+    float need;
+    float isNew; // 1: the first frame of a history, 0 from kNewFrames on
+};
+
+Signal makeSignal(vec4 light, float deviation) {
+    Signal s;
+    s.rgb = light.rgb;
+    s.y = yCoCgFromRgb(light.rgb).x;
+    s.isNew = saturate((kNewFrames - light.a) / (kNewFrames - 1.0));
+    // An exponential mean over n frames has the error of 2 n - 1 independent ones.
+    s.error = deviation * inversesqrt(max(2.0 * light.a - 1.0, 1.0));
+    float relative = s.error / (s.y + kDarkest);
+    float threshold = frame.denoising.spatialThreshold;
+    s.need = max(smoothstep(threshold, 2.0 * threshold, relative), s.isNew);
+    return s;
+}
+
+// The same for both orders of its arguments.
+float mixWeight(Signal a, Signal b) {
+    float apart = abs(a.y - b.y) / (kDeviations * sqrt(a.error * a.error + b.error * b.error) + 1.0e-5);
+    float near = saturate(1.0 - apart * apart);
+    // New histories know no deviation: nothing stops them.
+    return mix(near * near, 1.0, min(a.isNew, b.isNew)) * min(a.need, b.need);
+}
+
+vec3 compressed(vec3 rgb, float amount) {
+    return rgb / (1.0 + amount * luminance(rgb));
+}
+
+vec3 expanded(vec3 rgb, float amount) {
+    return rgb / max(1.0 - amount * luminance(rgb), 1.0e-3);
+}
+
+// How well two places mix: on one another's plane, facing one way.
+float placeWeight(Place a, Place b) {
+    vec3 d = b.positionWs - a.positionWs;
+    float footprintM = 0.5 * (a.depthM + b.depthM) * max(frame.pixelAngleRad, 1.0e-5);
+    float off = max(abs(dot(a.geoNormalWs, d)), abs(dot(b.geoNormalWs, d))) / (kPlanePx * footprintM);
+    float facing = saturate(1.0 - 6.0 * (1.0 - dot(a.normalWs, b.normalWs)));
+    return saturate(1.5 - off) * facing * facing;
+}
+
+// Interleaved gradient noise (Jimenez, "Next Generation Post Processing in Call of Duty", SIGGRAPH 2014): each 3 x 3
+// pixels have angles spread evenly, which anti-aliasing then averages. x: angle, y: radius, both of a turn.
+vec2 diskTurn(uvec2 pixel) {
+    vec2 at = vec2(pixel) + 5.588238 * float(frame.sampling.noiseFrame & 63u);
+    float x = fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))));
+    return vec2(x, fract(x * 7.0 + 0.618034 * float(frame.sampling.noiseFrame & 63u)));
+}
+
+void main() {
+    uvec2 pixel = dispatchedPixel();
+    if (!isInPicture(pixel)) return;
+    ivec2 at = ivec2(pixel);
+    vec4 diffuse = texelFetch(historyDiffuse, at, 0), specular = texelFetch(historySpecular, at, 0);
+    vec4 moments = texelFetch(historyMoments, at, 0);
+    Signal d = makeSignal(diffuse, moments.y), s = makeSignal(specular, moments.w);
+    Place here;
+    if (max(d.need, s.need) > 0.0 && loadPlace(at, here)) {
+        float radiusPx = frame.denoising.spatialRadiusPx;
+        float isNew = max(d.isNew, s.isNew);
+        int taps = int(mix(kTaps, kTapsNew, isNew) + 0.5);
+        vec2 turn = diskTurn(pixel);
+        float lobe = saturate(here.roughness / kRoughLobe);
+        vec3 hereD = compressed(d.rgb, d.isNew), hereS = compressed(s.rgb, s.isNew);
+        vec3 sumD = hereD, sumS = hereS;
+        float share = 1.0 / float(taps + 1);
+        for (int i = 0; i < taps; ++i) {
+            float radius = radiusPx * sqrt((float(i) + turn.y) / float(taps));
+            float angle = float(i) * kGoldenAngleRad + turn.x * KX_TWO_PI;
+            vec2 offset = radius * vec2(cos(angle), sin(angle));
+            ivec2 other = ivec2(floor(vec2(at) + 0.5 + offset));
+            if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, ivec2(frame.size)))) continue;
+            vec4 lightD = texelFetch(historyDiffuse, other, 0), lightS = texelFetch(historySpecular, other, 0);
+            Place there;
+            if (lightD.a <= 0.0 || !loadPlace(other, there)) continue;
+            float w = placeWeight(here, there);
+            if (w <= 0.0) continue;
+            vec4 momentsThere = texelFetch(historyMoments, other, 0);
+            Signal dThere = makeSignal(lightD, momentsThere.y), sThere = makeSignal(lightS, momentsThere.w);
+            // Smooth surfaces show sharp highlights: their taps end sooner.
+            float reach = radiusPx * min(lobe, saturate(there.roughness / kRoughLobe));
+            float wS = w * saturate(2.0 - 2.0 * radius / max(reach, 1.0e-3));
+            sumD += share * w * mixWeight(d, dThere) * (compressed(dThere.rgb, d.isNew) - hereD);
+            sumS += share * wS * mixWeight(s, sThere) * (compressed(sThere.rgb, s.isNew) - hereS);
+        }
+        diffuse.rgb = expanded(sumD, d.isNew);
+        specular.rgb = expanded(sumS, s.isNew);
+    }
+    imageStore(denoisedDiffuseOut, at, vec4(storableLight(diffuse.rgb), diffuse.a));
+    imageStore(denoisedSpecularOut, at, vec4(storableLight(specular.rgb), specular.a));
+}

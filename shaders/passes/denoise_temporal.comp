@@ -1,0 +1,229 @@
+#version 460
+// Temporal filter of diffuse and specular light (the MegaLights talk, SIGGRAPH 2025, "Temporal Filter"): history is
+// fetched where the surface was, checked against the 5 x 5 neighbourhood, and averaged with the new sample. Writes
+// light with the number of frames it holds, and mean and standard deviation of luminance.
+//
+// One ray per pixel is too noisy to clip the history of a pixel to a box around its neighbours: sparse light would
+// be lost, and what differs from its surroundings would be smeared. The neighbourhood is therefore compared with
+// its own history: the mean of (sample - history) over the same pixels is noise about 0 as long as light stands
+// still, whatever the picture shows there. Only what exceeds that noise moves the history, and never farther than
+// clipping to the variance box of the samples (Salvi, "An excursion in temporal supersampling", GDC 2016) would.
+#include "shared/features.h"
+#include "lib/dispatch.glsl"
+#include "lib/gbuffer.glsl"
+#include "lib/history.glsl"
+#include "lib/reprojection.glsl"
+
+layout(constant_id = CHOICE_SPARSE_NEIGHBOURS) const bool kSparseNeighbours = false;
+
+layout(local_size_x = 8, local_size_y = 8) in;
+uniform sampler2D gDepth;
+uniform usampler2D gNormals;
+uniform sampler2D litDiffuse;
+uniform sampler2D litSpecular;
+uniform sampler2D previousDepth;
+uniform usampler2D previousNormals;
+uniform sampler2D previousDiffuse;
+uniform sampler2D previousSpecular;
+uniform sampler2D previousMoments;
+layout(rgba16f) writeonly uniform image2D historyDiffuseOut;
+layout(rgba16f) writeonly uniform image2D historySpecularOut;
+layout(rgba16f) writeonly uniform image2D historyMomentsOut;
+layout(rgba16f) writeonly uniform image2D denoiseTraceOut; // for the views; a dummy otherwise
+
+const float kLeastTap = 0.01;       // bilinear weights below are not fetched
+const float kSameNormal = 0.8;      // cosine of geometric normals
+const float kFilledFrames = 0.25;   // what light that was borrowed from neighbours counts
+const float kMomentFrames = 12.0;   // that the deviation remembers
+const float kRelaxed = 2.0;         // of the clip width where the sample was reconstructed
+const float kLeastExtent = 0.1;     // of display white: smaller boxes do not shorten history (the talk)
+const float kTaps = 25.0;
+
+struct History {
+    vec4 diffuse; // light, frames
+    vec4 specular;
+    vec4 moments;
+    float weight; // 0: none
+};
+
+bool addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return false;
+    if (!sameDepth(texelFetch(previousDepth, at, 0).x, r.depthM, cosView)) return false;
+    if (dot(unpackOct16(texelFetch(previousNormals, at, 0).y), geoNormalWs) < kSameNormal) return false;
+    h.diffuse += weight * readHistory(texelFetch(previousDiffuse, at, 0));
+    h.specular += weight * readHistory(texelFetch(previousSpecular, at, 0));
+    h.moments += weight * readMomentHistory(texelFetch(previousMoments, at, 0));
+    h.weight += weight;
+    return true;
+}
+
+// Bilinear between the four nearest texels that show the same surface. Where none does, its texels among the 3 x 3
+// nearest: jitter makes edges hop from frame to frame.
+History fetchHistory(Reprojection r, vec3 geoNormalWs, float cosView) {
+    History h = History(vec4(0.0), vec4(0.0), vec4(0.0), 0.0);
+    if (!r.onScreen) return h;
+    vec2 at = r.uv * vec2(frame.previousSize) - 0.5;
+    vec2 corner = floor(at);
+    vec2 f = at - corner;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        vec2 w = mix(1.0 - f, f, vec2(offset));
+        if (w.x * w.y > kLeastTap) addTap(h, ivec2(corner) + offset, w.x * w.y, r, geoNormalWs, cosView);
+    }
+    if (h.weight < kLeastTap) {
+        ivec2 nearest = ivec2(floor(at + 0.5));
+        for (int y = -1; y <= 1; ++y)
+            for (int x = -1; x <= 1; ++x)
+                addTap(h, nearest + ivec2(x, y), 1.0, r, geoNormalWs, cosView);
+    }
+    if (h.weight > 0.0) {
+        float scale = 1.0 / h.weight;
+        h.diffuse *= scale;
+        h.specular *= scale;
+        h.moments *= scale;
+    }
+    return h;
+}
+
+// Sums over the neighbourhood in YCoCg.
+struct Sums {
+    vec3 light;
+    vec3 lightSquare;
+    vec3 change; // sample minus history
+    vec3 changeSquare;
+};
+
+void addNeighbour(inout Sums s, vec3 rgb, vec3 historyRgb) {
+    vec3 light = yCoCgFromRgb(min(rgb, vec3(kHalfMax)));
+    vec3 change = light - yCoCgFromRgb(historyRgb);
+    s.light += light;
+    s.lightSquare += light * light;
+    s.change += change;
+    s.changeSquare += change * change;
+}
+
+struct Neighbours {
+    Sums diffuse;
+    Sums specular;
+    float count;
+};
+
+Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory) {
+    Sums none = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    Neighbours n = Neighbours(none, none, 0.0);
+    ivec2 size = ivec2(frame.size), previousSize = ivec2(frame.previousSize);
+    int stepX = kSparseNeighbours ? 2 : 1;
+    for (int y = -2; y <= 2; ++y) {
+        for (int x = kSparseNeighbours ? (y & 1) - 2 : -2; x <= 2; x += stepX) {
+            ivec2 at = pixel + ivec2(x, y), then = before + ivec2(x, y);
+            if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
+            vec4 diffuse = texelFetch(litDiffuse, at, 0);
+            vec3 specular = texelFetch(litSpecular, at, 0).rgb;
+            if (diffuse.a <= 0.0 || !isFiniteLight(diffuse.rgb) || !isFiniteLight(specular)) continue;
+            vec4 oldDiffuse = vec4(0.0), oldSpecular = vec4(0.0);
+            if (hasHistory) {
+                if (any(lessThan(then, ivec2(0))) || any(greaterThanEqual(then, previousSize))) continue;
+                oldDiffuse = readHistory(texelFetch(previousDiffuse, then, 0));
+                oldSpecular = readHistory(texelFetch(previousSpecular, then, 0));
+                if (oldDiffuse.a <= 0.0) continue;
+            }
+            addNeighbour(n.diffuse, diffuse.rgb, oldDiffuse.rgb);
+            addNeighbour(n.specular, specular, oldSpecular.rgb);
+            n.count += 1.0;
+        }
+    }
+    return n;
+}
+
+// Of two steps the shorter, if they agree on the side, else none.
+vec3 agreedStep(vec3 a, vec3 b) {
+    vec3 shorter = sign(a) * min(abs(a), abs(b));
+    return mix(vec3(0.0), shorter, greaterThan(a * b, vec3(0.0)));
+}
+
+struct Filtered {
+    vec4 light; // and frames
+    vec2 moments;
+    float confidence;
+};
+
+// `moments`: mean and deviation of luminance up to now. `valid`: alpha of litDiffuse. `mostFrames`: the limit.
+Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums sums, float count, float mostFrames) {
+    Filtered result;
+    float scale = 1.0 / max(count, 1.0);
+    vec3 mean = sums.light * scale, change = sums.change * scale;
+    vec3 spread = sqrt(max(sums.lightSquare * scale - mean * mean, vec3(0.0)));
+    vec3 noise = sqrt(max(sums.changeSquare * scale - change * change, vec3(0.0)));
+    float frames = history.a, heldFrames = min(frames, kMomentFrames);
+    vec3 before = yCoCgFromRgb(history.rgb);
+    result.confidence = 1.0;
+    // Without a sample there is nothing to check or to add: history stays as it is.
+    if (valid > 0.0 && frames > 0.0 && count > 1.0) {
+        // Light that is found rarely may be absent from a whole neighbourhood: the deviation over time knows.
+        vec3 remembered = moments.y * max(abs(before) / max(before.x, 1.0e-6), vec3(0.1, 0.0, 0.0));
+        float width = frame.denoising.clipWidth * sqrt(kTaps / count) * sqrt(1.0 + 1.0 / frames) *
+                      (valid < 1.0 ? kRelaxed : 1.0);
+        vec3 extent = width * max(noise, remembered);
+        vec3 byChange = change - clamp(change, -extent, extent);
+        vec3 box = width / frame.denoising.clipWidth * max(spread, remembered);
+        vec3 byBox = clamp(before, mean - box, mean + box) - before;
+        vec3 move = agreedStep(byChange, byBox);
+        before += move;
+        result.confidence = saturate(1.0 - length(move / max(extent, vec3(kLeastExtent))));
+    }
+    float limit = mix(min(frame.denoising.leastFrames, mostFrames), mostFrames, result.confidence);
+    if (valid > 0.0 && isFiniteLight(rgb)) {
+        frames = min(frames + 1.0, limit);
+        vec3 old = storableLight(rgbFromYCoCg(before));
+        float share = 1.0 / max(frames, 1.0);
+        result.light = vec4(mix(old, min(rgb, vec3(kHalfMax)), share), frames);
+        // The deviation is that of the whole neighbourhood: 25 times as sure as a pixel's own.
+        float deviation = noise.x;
+        float momentShare = max(1.0 / (heldFrames + 1.0), share);
+        float variance = mix(moments.y * moments.y, deviation * deviation, heldFrames > 0.0 ? momentShare : 1.0);
+        result.moments = vec2(mix(moments.x, yCoCgFromRgb(min(rgb, vec3(kHalfMax))).x, share), sqrt(variance));
+    } else if (frames > 0.0) {
+        result.light = history;
+        result.moments = moments;
+    } else {
+        bool any = count > 0.0;
+        result.light = vec4(any ? rgbFromYCoCg(mean) : vec3(0.0), any ? kFilledFrames : 0.0);
+        result.moments = vec2(mean.x, noise.x);
+    }
+    result.light.rgb = storableLight(result.light.rgb);
+    result.moments = storableLight(vec3(result.moments, 0.0)).xy;
+    return result;
+}
+
+void main() {
+    uvec2 pixel = dispatchedPixel();
+    if (!isInPicture(pixel)) return;
+    ivec2 at = ivec2(pixel);
+    vec4 diffuse = vec4(0.0), specular = vec4(0.0), moments = vec4(0.0), trace = vec4(0.0);
+    float depthM = texelFetch(gDepth, at, 0).x;
+    if (depthM < DEPTH_SKY) {
+        Reprojection r = reproject(pixel);
+        vec3 geoNormalWs = unpackOct16(texelFetch(gNormals, at, 0).y);
+        float cosView = abs(dot(geoNormalWs, normalize(cameraRay(pixel).dir)));
+        History h = fetchHistory(r, geoNormalWs, cosView);
+        ivec2 before = ivec2(floor(r.uv * vec2(frame.previousSize)));
+        Neighbours n = gatherNeighbours(at, before, h.weight > 0.0);
+        vec4 litD = texelFetch(litDiffuse, at, 0), litS = texelFetch(litSpecular, at, 0);
+        float most = litS.a > 0.0 ? litS.a : 255.0;
+        Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count,
+                                  min(frame.denoising.diffuseFrames, most));
+        Filtered s = filterSignal(litS.rgb, litD.a, h.specular, h.moments.zw, n.specular, n.count,
+                                  min(frame.denoising.specularFrames, most));
+        diffuse = d.light;
+        specular = s.light;
+        moments = vec4(d.moments, s.moments);
+        trace = vec4(d.confidence, s.confidence, h.weight > 0.0 ? 1.0 : 0.0, litD.a);
+        uint seed = pixelSeed(pixel, frame.frame, frame.seed ^ 0xd1ffu);
+        diffuse.rgb = roundedToHalf(diffuse.rgb, seed);
+        specular.rgb = roundedToHalf(specular.rgb, hashUint(seed));
+    }
+    imageStore(historyDiffuseOut, at, diffuse);
+    imageStore(historySpecularOut, at, specular);
+    imageStore(historyMomentsOut, at, moments);
+    if (all(lessThan(at, imageSize(denoiseTraceOut)))) imageStore(denoiseTraceOut, at, trace);
+}

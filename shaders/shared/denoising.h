@@ -1,0 +1,23 @@
+// The numbers that steer the denoiser, the anti-aliasing and the passage to the converged picture; settings
+// of the same names, see renderer/settings.cpp for ranges and defaults.
+#ifndef KILOLUX_SHARED_DENOISING_H
+#define KILOLUX_SHARED_DENOISING_H
+#include "base.h"
+
+KX_SHARED_BEGIN
+
+struct DenoisingConstants {
+    float diffuseFrames; // that a history holds at most
+    float specularFrames;
+    float leastFrames; // what remains of that limit where the history is far off
+    float clipWidth;   // standard deviations of the neighbourhood
+    float spatialRadiusPx;
+    float spatialThreshold; // relative standard error from which on the spatial filter works
+    float antiAliasFrames;
+    float antiAliasClip; // standard deviations of the neighbourhood
+    float settleError;   // relative standard error of the mean at which it has taken over
+};
+
+KX_SHARED_END
+
+#endif
