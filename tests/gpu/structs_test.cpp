@@ -38,6 +38,14 @@ class FieldWords {
 #define PUT_GRID(field) put(grid.field);
         FIELDS_GridConstants(PUT_GRID)
     }
+    void put(const SamplingConstants& sampling) {
+#define PUT_SAMPLING(field) put(sampling.field);
+        FIELDS_SamplingConstants(PUT_SAMPLING)
+    }
+    void put(const DenoisingConstants& denoising) {
+#define PUT_DENOISING(field) put(denoising.field);
+        FIELDS_DenoisingConstants(PUT_DENOISING)
+    }
     std::vector<std::uint32_t> words;
 };
 
@@ -97,6 +105,9 @@ STRUCT_TEST(LightHot)
 STRUCT_TEST(LightCold)
 STRUCT_TEST(FrameConstants)
 STRUCT_TEST(GridConstants)
+STRUCT_TEST(SamplingConstants)
+STRUCT_TEST(DenoisingConstants)
+STRUCT_TEST(InstanceRows)
 STRUCT_TEST(GridCell)
 STRUCT_TEST(GpuInstance)
 STRUCT_TEST(GpuTextureRef)

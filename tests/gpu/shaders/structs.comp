@@ -38,6 +38,8 @@ void put(GridConstants grid) { FIELDS_GridConstants(PUT_GRID) }
 void put(uvec4 v) { put(v.xyz); put(v.w); }
 #define PUT_SAMPLING(field) put(sampling.field);
 void put(SamplingConstants sampling) { FIELDS_SamplingConstants(PUT_SAMPLING) }
+#define PUT_DENOISING(field) put(denoising.field);
+void put(DenoisingConstants denoising) { FIELDS_DenoisingConstants(PUT_DENOISING) }
 
 #define PUT(field) put(source[1].field);
 
