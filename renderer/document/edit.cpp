@@ -15,13 +15,14 @@ bool operator==(const Trs& a, const Trs& b) {
 bool equal(const LightNode& a, const LightNode& b) {
     return a.id == b.id && a.node == b.node && a.def == b.def && a.muted == b.muted && a.group == b.group;
 }
+// Where a definition stands in the file is no part of what it is: saving may move it.
 bool equal(const LightDef& a, const LightDef& b) {
     return a.name == b.name && a.type == b.type && a.intensity == b.intensity && a.unit == b.unit &&
            a.color == b.color && a.temperatureK == b.temperatureK && a.rangeM == b.rangeM &&
            a.radiusM == b.radiusM && a.lengthM == b.lengthM && a.widthM == b.widthM &&
            a.heightM == b.heightM && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad &&
            a.angularDiameterRad == b.angularDiameterRad && a.barnDoorAngleRad == b.barnDoorAngleRad &&
-           a.barnDoorLengthM == b.barnDoorLengthM && a.rayEndBiasM == b.rayEndBiasM && a.pointer == b.pointer;
+           a.barnDoorLengthM == b.barnDoorLengthM && a.rayEndBiasM == b.rayEndBiasM;
 }
 bool equal(const Node& a, const Node& b) {
     const bool sameRest = a.restTrs && b.restTrs ? *a.restTrs == *b.restTrs : !a.restTrs && !b.restTrs;

@@ -53,7 +53,7 @@ std::string groupName(const Scene& scene, const LightNode& light) {
 // Imports the lights of the text that is about to be saved.
 Scene readBack(const gltf::SaveContext& context, const SourceFile& source, const std::string& text) {
     gltf::ImportContext reading;
-    reading.path = source.path;
+    reading.path = source.path.parent_path() / "text.gltf"; // the JSON alone, of a .glb as well
     reading.fileBytes = text.size();
     gltf::parseDocument(reading, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     gltf::checkSchema(reading);
