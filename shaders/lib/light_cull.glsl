@@ -16,8 +16,11 @@ const int kPyramidFine = 4;   // one texel per 32 x 32 pixels
 const int kPyramidCoarse = 6; // 128 x 128
 
 // The part of a column's depths nearM to farM in which its pixels have surfaces; empty (y < x) without any. Odd sizes
-// let a texel of the pyramid's last row or column stand for more pixels than the regular ones.
+// let a texel of the pyramid's last row or column stand for more pixels than the regular ones. Slices overlap a little:
+// a depth on their border belongs to the one that gridSlice() says, whatever log2 and exp2 round to.
 vec2 surfaceDepths(uvec2 column, int level, float nearM, float farM) {
+    nearM *= 1.0 - 1.0e-5;
+    farM *= 1.0 + 1.0e-5;
     if (textureQueryLevels(pyramid) <= level) return vec2(nearM, farM); // a picture smaller than a cell
     ivec2 last = max(ivec2(frame.size >> uint(level + 1)) - 1, ivec2(0));
     vec2 range = texelFetch(pyramid, min(ivec2(column), last), level).xy;
@@ -59,31 +62,46 @@ CellBounds cellBounds(uvec2 firstPx, uvec2 endPx, vec2 depthsM) {
     return cell;
 }
 
-// Whether the cell lies beyond a plane by more than `slackM`: nothing of it is on the inner side. What bounds a light by
-// planes (the sides of cones, half spaces) asks this.
+// Whether the cell lies beyond a plane by more than `slackM`: nothing of it is on the inner side. For whatever bounds a
+// light by planes: half spaces and the sides of cones, later the flaps of barn doors (LightHot::shaping).
 bool cellBeyondPlane(CellBounds cell, vec3 pointToCell, vec3 outward, float slackM) {
     vec3 along = abs(vec3(dot(outward, cell.right), dot(outward, cell.down), dot(outward, cell.forward)));
     return dot(outward, pointToCell) > dot(along, cell.halfM) + slackM;
 }
 
-bool lightMayReach(LightHot light, CellBounds cell) {
+// What culling needs of a light: inside a sphere and a cone (a half space for one-sided lights).
+struct LightReach {
+    vec3 centerWs;
+    float radius2M2; // 0: muted or dead
+    vec3 axisWs;
+    float cosine; // of the cone's half angle, opened by the tolerance of lightReaches
+    uint type;
+};
+
+LightReach lightReach(LightHot light) {
     LightBounds bounds = lightBounds(light);
-    if (bounds.radiusM <= 0.0) return false;
-    if (lightType(light) == LIGHT_DIRECTIONAL) return true;
-    vec3 toCell = cell.centerWs - bounds.centerWs;
+    float radius2M2 = min(bounds.radiusM * bounds.radiusM * 1.00001, KX_INFINITY);
+    return LightReach(bounds.centerWs, radius2M2, bounds.axisWs, bounds.cosHalfAngle - 1.0e-6, lightType(light));
+}
+
+bool mayReach(LightReach light, CellBounds cell) {
+    if (light.radius2M2 <= 0.0) return false;
+    if (light.type == LIGHT_DIRECTIONAL) return true;
+    vec3 toCell = cell.centerWs - light.centerWs;
     vec3 p = abs(vec3(dot(toCell, cell.right), dot(toCell, cell.down), dot(toCell, cell.forward)));
     vec3 outside = max(p - cell.halfM, vec3(0.0));
-    if (dot(outside, outside) > bounds.radiusM * bounds.radiusM * 1.00001) return false;
-    // A cone of at most half the sphere is convex: the plane that touches it on the side towards the cell has all of it
-    // on one side. For a half space, that is its plane. Opened by the tolerance of lightReaches.
-    float cosine = bounds.cosHalfAngle - 1.0e-6;
-    if (cosine < -1.0e-5) return true;
-    float along = dot(toCell, bounds.axisWs);
-    vec3 across = toCell - bounds.axisWs * along;
-    float distanceM = length(toCell), acrossM = length(across);
+    if (dot(outside, outside) > light.radius2M2) return false;
+    if (light.cosine < -1.0e-5) return true; // wider cones than a half space are not convex
+    float distanceM = length(toCell), slackM = 1.0e-5 * distanceM;
+    if (cellBeyondPlane(cell, toCell, -light.axisWs, slackM)) return false; // behind the light
+    if (light.cosine <= 0.0) return true;
+    // The plane that touches the cone on the side towards the cell.
+    float along = dot(toCell, light.axisWs);
+    vec3 across = toCell - light.axisWs * along;
+    float acrossM = length(across);
     vec3 sideways = acrossM > 0.01 * distanceM ? across / acrossM : vec3(0.0);
-    vec3 outward = sideways * cosine - bounds.axisWs * sqrt(max(1.0 - cosine * cosine, 0.0));
-    return !cellBeyondPlane(cell, toCell, outward, 1.0e-5 * distanceM);
+    vec3 outward = sideways * light.cosine - light.axisWs * sqrt(max(1.0 - light.cosine * light.cosine, 0.0));
+    return !cellBeyondPlane(cell, toCell, outward, slackM);
 }
 
 // --- The list of a cell ------------------------------------------------------------------------------------

@@ -24,8 +24,8 @@ void main() {
     CellBounds bounds = cellBounds(first.xy * GRID_TILE_PX, min(end.xy * GRID_TILE_PX, frame.size), depthsM);
     clearList(thread);
     for (uint slot = thread; slot < frame.lightCount; slot += GRID_GROUP) {
-        LightHot light = loadLightHot(slot);
-        if (lightMayReach(light, bounds)) markLight(slot, lightType(light));
+        LightReach light = lightReach(loadLightHot(slot));
+        if (mayReach(light, bounds)) markLight(slot, light.type);
     }
     uint total;
     uint at = prefixOf(thread, markedByThread(thread), total);

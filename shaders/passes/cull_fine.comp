@@ -19,6 +19,7 @@ layout(scalar) buffer GridIndices {
 shared uint sharedCells; // with surfaces
 shared uint sharedCellIndex[GRID_GROUP];
 shared CellBounds sharedBounds[GRID_GROUP];
+shared LightReach sharedLights[GRID_GROUP];
 
 void gatherCells(uint thread) {
     if (thread == 0u) sharedCells = 0u;
@@ -50,25 +51,31 @@ bool writeCell(uint index, GridCell cell, GridCell coarse) {
 void fillByThreads(uint thread, GridCell coarse) {
     bool busy = thread < sharedCells;
     CellBounds bounds = sharedBounds[busy ? thread : 0u];
-    uint bits = 0u, count = 0u, types = 0u;
-    for (uint i = 0u; busy && i < coarse.count; ++i) {
-        LightHot light = loadLightHot(gridIndices[coarse.first + i]);
-        if (lightMayReach(light, bounds)) {
-            bits |= 1u << (i & 31u);
-            types |= 1u << lightType(light);
+    uint count = 0u, types = 0u;
+    for (uint first = 0u; first < coarse.count; first += GRID_GROUP) {
+        barrier();
+        if (first + thread < coarse.count) {
+            sharedLights[thread] = lightReach(loadLightHot(gridIndices[coarse.first + first + thread]));
         }
-        if ((i & 31u) == 31u || i + 1u == coarse.count) {
-            sharedMask[(i >> 5u) * GRID_GROUP + thread] = bits; // read by this thread alone
-            count += uint(bitCount(bits));
-            bits = 0u;
+        barrier();
+        uvec2 bits = uvec2(0u);
+        for (uint i = 0u; busy && i < min(GRID_GROUP, coarse.count - first); ++i) {
+            LightReach light = sharedLights[i];
+            if (!mayReach(light, bounds)) continue;
+            bits |= i < 32u ? uvec2(1u << i, 0u) : uvec2(0u, 1u << (i - 32u));
+            types |= 1u << light.type;
         }
+        // Two words of the mask, read by this thread alone.
+        sharedMask[(first >> 5u) * GRID_GROUP + thread] = bits.x;
+        sharedMask[((first >> 5u) + 1u) * GRID_GROUP + thread] = bits.y;
+        count += uint(bitCount(bits.x) + bitCount(bits.y));
     }
     uint total;
     uint at = prefixOf(thread, count, total);
     at += takeRoom(thread, total);
     if (!busy || !writeCell(sharedCellIndex[thread], GridCell(at, count, types), coarse)) return;
     for (uint word = 0u; word * 32u < coarse.count; ++word) {
-        for (bits = sharedMask[word * GRID_GROUP + thread]; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = sharedMask[word * GRID_GROUP + thread]; bits != 0u; bits &= bits - 1u) {
             gridIndices[at++] = gridIndices[coarse.first + word * 32u + uint(findLSB(bits))];
         }
     }
@@ -78,8 +85,8 @@ void fillByGroup(uint thread, uint place, GridCell coarse) {
     CellBounds bounds = sharedBounds[place];
     clearList(thread);
     for (uint i = thread; i < coarse.count; i += GRID_GROUP) {
-        LightHot light = loadLightHot(gridIndices[coarse.first + i]);
-        if (lightMayReach(light, bounds)) markLight(i, lightType(light));
+        LightReach light = lightReach(loadLightHot(gridIndices[coarse.first + i]));
+        if (mayReach(light, bounds)) markLight(i, light.type);
     }
     uint total;
     uint at = prefixOf(thread, markedByThread(thread), total);
