@@ -25,7 +25,7 @@ void addSphere(Scene& scene, const std::vector<double>& numbers) {
     node.worldFromNode[3] = node.localFromNode[3] = glm::dvec4(numbers[0], numbers[1], numbers[2], 1.0);
     scene.nodes.push_back(node);
     scene.lightDefs.push_back(def);
-    scene.lights.push_back({int(scene.nodes.size()) - 1, int(scene.lightDefs.size()) - 1, false});
+    scene.lights.push_back({.node = int(scene.nodes.size()) - 1, .def = int(scene.lightDefs.size()) - 1});
 }
 
 // Looks from the first three numbers at the last three; 60 degrees high.

@@ -36,7 +36,7 @@ Scene ballScene() {
     node.worldFromNode = glm::dmat4(1.0);
     node.worldFromNode[3] = glm::dvec4(1.0, 4.0, 0.5, 1.0);
     scene.nodes.push_back(node);
-    scene.lights.push_back({int(scene.nodes.size()) - 1, 0, false});
+    scene.lights.push_back({.node = int(scene.nodes.size()) - 1, .def = 0});
     return scene;
 }
 
@@ -94,7 +94,7 @@ TEST_F(FramePass, PyramidBoundsEveryPixelBelow) {
     std::mt19937 random(3);
     for (const glm::uvec2& size :
          {glm::uvec2(37, 22), glm::uvec2(64, 32), glm::uvec2(5, 1), glm::uvec2(1, 1)}) {
-        Targets targets(device(), size.x, size.y, /*raster=*/false, /*debugView=*/false);
+        Targets targets(device(), size.x, size.y, TargetNeeds{});
         std::vector<float> depths(size.x * size.y);
         for (float& depth : depths)
             depth = random() % 9 == 0 ? shared::DEPTH_SKY : float(random() % 1000 + 1);

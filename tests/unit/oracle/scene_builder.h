@@ -53,7 +53,7 @@ class SceneBuilder {
     int light(const LightDef& def, const glm::dmat4& worldFromNode) {
         scene.lightDefs.push_back(def);
         const int at = node(worldFromNode);
-        scene.lights.push_back({at, static_cast<int>(scene.lightDefs.size()) - 1, false});
+        scene.lights.push_back({.node = at, .def = static_cast<int>(scene.lightDefs.size()) - 1});
         return static_cast<int>(scene.lights.size()) - 1;
     }
 };
