@@ -115,13 +115,13 @@ ExitCode applyScript(const EditOptions& options) {
     sessionOptions.import.loadImages = false; // nothing of them is edited
     auto session = EditSession::open(options.scene, sessionOptions);
     if (!session) return printError(session.error()), ExitCode::BadInput;
-    for (const std::string& warning : session.value()->scene().warnings)
-        printWarning(warning);
     if (const auto error = runEditScript(*session.value(), script.value()))
         return printError(options.script + ": " + error->message), ExitCode::BadInput;
     const auto error =
         options.output.empty() ? session.value()->save() : session.value()->saveAs(options.output);
     if (error) return printError(error->message), ExitCode::CouldNotWork;
+    for (const std::string& warning : session.value()->scene().warnings)
+        printWarning(warning);
     return ExitCode::Done;
 }
 

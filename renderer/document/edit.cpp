@@ -206,6 +206,9 @@ std::string describeTarget(const Scene& scene, EditTarget target, std::uint64_t 
         return named("light", hasNode ? scene.nodes[node].name : "");
     }
     case EditTarget::Definition:
+        // By a light that shows it: definitions have no place of their own in lists.
+        for (const LightNode& light : scene.lights)
+            if (light.def == static_cast<int>(id)) return describeTarget(scene, EditTarget::Light, light.id);
         return named("light definition", exists ? scene.lightDefs[id].name : "");
     case EditTarget::Node:
         return named("node", exists ? scene.nodes[id].name : "");

@@ -68,6 +68,10 @@ inline void killRounds(int rounds, std::uint32_t seed) {
         ASSERT_TRUE(session);
         const auto warning = session->takeWarning();
         ASSERT_FALSE(warning) << "round " << round << ": " << warning->message;
+        // Killed between undoing and redoing.
+        if (session->history().canRedo()) {
+            ASSERT_FALSE(session->redo());
+        }
         const double intensity = defOf(session->scene(), "Sun").intensity;
         EXPECT_GE(intensity, acknowledged) << "round " << round;
         EXPECT_LE(intensity, acknowledged + 1.0) << "round " << round;
