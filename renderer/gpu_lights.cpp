@@ -174,8 +174,10 @@ double deriveExposureEv100(const Scene& scene) {
     for (const LightNode& light : scene.lights) {
         if (light.muted) continue;
         const LightDef& def = scene.lightDefs[std::size_t(light.def)];
-        lights.push_back(inDouble(makeHot(def, light, scene.nodes[std::size_t(light.node)].worldFromNode,
-                                          glm::dvec3(0.0), def.rangeM)));
+        shared::LightHot hot = makeHot(def, light, scene.nodes[std::size_t(light.node)].worldFromNode,
+                                       glm::dvec3(0.0), def.rangeM);
+        hot.intensity *= glm::vec3(groupFactor(scene, light));
+        lights.push_back(inDouble(hot));
     }
     if (lights.empty()) return 0.0;
     // A thousand points times the lights, bounded for scenes of ten thousand lights.
@@ -218,6 +220,7 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         }
         const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
         result.hot.push_back(makeHot(def, light, world, anchor, rangeM));
+        result.hot.back().intensity *= glm::vec3(groupFactor(scene, light));
         shared::LightCold cold{};
         cold.rayEndBiasM = float(def.rayEndBiasM);
         cold.node = std::uint32_t(slot);

@@ -23,6 +23,10 @@ Oracle::Oracle(const Scene& scene, const std::vector<double>& derivedRangesM)
         std::optional<double> rangeM = def.rangeM;
         if (!rangeM && i < derivedRangesM.size() && derivedRangesM[i] > 0.0) rangeM = derivedRangesM[i];
         OracleLight light = makeLight(def, scene.nodes[node.node].worldFromNode, rangeM);
+        const glm::dvec3 factor = groupFactor(scene, node);
+        light.intensityCd *= factor;
+        light.illuminanceLux *= factor;
+        light.radianceNit *= factor;
         light.muted = node.muted || !scene.nodes[node.node].visible;
         state_->lights.push_back(light);
     }
