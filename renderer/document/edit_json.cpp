@@ -1,9 +1,8 @@
 #include "renderer/document/edit_json.h"
 
-#include "renderer/document/light_words.h"
+#include "renderer/document/json_members.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace kilolux {
 
@@ -12,119 +11,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kTargetWords[] = {"light", "definition", "node", "group", "bookmark", "scene"};
-
-Json numbers(const double* values, int count) {
-    Json array = Json::array();
-    for (int i = 0; i < count; ++i)
-        array.push_back(values[i]);
-    return array;
-}
-
-bool readNumbers(const Json& json, double* values, std::size_t count) {
-    const bool good = json.is_array() && json.size() == count &&
-                      std::all_of(json.begin(), json.end(), [](const Json& e) { return e.is_number(); });
-    for (std::size_t i = 0; good && i < count; ++i)
-        values[i] = json[i].get<double>();
-    return good;
-}
-
-// Reads members of an object by their kind and remembers the first that is wrong.
-class Members {
-  public:
-    explicit Members(const Json& json) : json_(json) {
-        if (!json.is_object()) wrong_ = "expected an object";
-    }
-
-    void read(const char* key, bool& target) {
-        if (const Json* value = find(key)) check(key, value->is_boolean(), "true or false", target, *value);
-    }
-    void read(const char* key, double& target) {
-        if (const Json* value = find(key)) check(key, value->is_number(), "a number", target, *value);
-    }
-    void read(const char* key, int& target) {
-        const Json* value = find(key);
-        if (!value) return;
-        const bool good = value->is_number_integer() && value->get<std::int64_t>() >= -1 &&
-                          value->get<std::int64_t>() < INT32_MAX;
-        check(key, good, "an index", target, *value);
-    }
-    void read(const char* key, std::uint64_t& target) {
-        if (const Json* value = find(key)) check(key, value->is_number_unsigned(), "an id", target, *value);
-    }
-    void read(const char* key, std::string& target) {
-        if (const Json* value = find(key)) check(key, value->is_string(), "text", target, *value);
-    }
-    void read(const char* key, std::optional<double>& target) {
-        const Json* value = find(key);
-        if (!value || value->is_null()) return;
-        double number = 0.0;
-        read(key, number);
-        target = number;
-    }
-    void read(const char* key, glm::dvec3& target) { readArray(key, &target.x, 3); }
-    void read(const char* key, glm::dmat4& target) { readArray(key, &target[0][0], 16); }
-    void read(const char* key, Trs& target) {
-        const Json* value = find(key);
-        if (!value) return;
-        Members parts(*value);
-        double rotation[4] = {target.rotation.x, target.rotation.y, target.rotation.z, target.rotation.w};
-        parts.read("translation", target.translation);
-        parts.readArray("rotation", rotation, 4);
-        parts.read("scale", target.scale);
-        target.rotation = glm::dquat(rotation[3], rotation[0], rotation[1], rotation[2]);
-        if (!parts.wrong_.empty() && wrong_.empty()) wrong_ = std::string(key) + "/" + parts.wrong_;
-    }
-    void read(const char* key, LightType& target) {
-        readWord(key, kLightTypeWords, &LightTypeWord::type, target);
-    }
-    void read(const char* key, LightUnit& target) {
-        readWord(key, kLightUnitWords, &LightUnitWord::unit, target);
-    }
-
-    const Json* find(const char* key) const {
-        if (!json_.is_object()) return nullptr;
-        const auto it = json_.find(key);
-        return it == json_.end() ? nullptr : &*it;
-    }
-    void fail(const std::string& message) {
-        if (wrong_.empty()) wrong_ = message;
-    }
-    std::optional<Error> error() const {
-        return wrong_.empty() ? std::nullopt : std::optional<Error>(Error{wrong_});
-    }
-
-  private:
-    template<typename T>
-    void check(const char* key, bool good, const char* what, T& target, const Json& value) {
-        if (good) {
-            target = value.get<T>();
-        } else {
-            fail(fmt::format("{}: expected {}", key, what));
-        }
-    }
-    void readArray(const char* key, double* target, std::size_t count) {
-        const Json* value = find(key);
-        if (value && !readNumbers(*value, target, count))
-            fail(fmt::format("{}: expected {} numbers", key, count));
-    }
-    template<typename Word, std::size_t N, typename T>
-    void readWord(const char* key, const Word (&words)[N], T Word::*member, T& target) {
-        const Json* value = find(key);
-        if (!value) return;
-        std::string known;
-        for (const Word& word : words) {
-            if (value->is_string() && value->get_ref<const std::string&>() == word.name) {
-                target = word.*member;
-                return;
-            }
-            known += (known.empty() ? "" : ", ") + std::string(word.name);
-        }
-        fail(fmt::format("{}: expected one of {}", key, known));
-    }
-
-    const Json& json_;
-    std::string wrong_;
-};
 
 Json optionalNumber(const std::optional<double>& number) {
     return number ? Json(*number) : Json();
@@ -159,9 +45,9 @@ EditValue objectFromJson(const Json& json, EditTarget target, std::optional<Erro
 
 Json trsToJson(const Trs& trs) {
     const double rotation[4] = {trs.rotation.x, trs.rotation.y, trs.rotation.z, trs.rotation.w};
-    return {{"translation", numbers(&trs.translation.x, 3)},
-            {"rotation", numbers(rotation, 4)},
-            {"scale", numbers(&trs.scale.x, 3)}};
+    return {{"translation", numbersJson(&trs.translation.x, 3)},
+            {"rotation", numbersJson(rotation, 4)},
+            {"scale", numbersJson(&trs.scale.x, 3)}};
 }
 
 // One list of members for both directions: `io(name, member)`.
@@ -199,8 +85,8 @@ struct Writer {
     void operator()(const char* key, const T& member) {
         json[key] = member;
     }
-    void operator()(const char* key, const glm::dvec3& member) { json[key] = numbers(&member.x, 3); }
-    void operator()(const char* key, const glm::dmat4& member) { json[key] = numbers(&member[0][0], 16); }
+    void operator()(const char* key, const glm::dvec3& member) { json[key] = numbersJson(&member.x, 3); }
+    void operator()(const char* key, const glm::dmat4& member) { json[key] = numbersJson(&member[0][0], 16); }
     void operator()(const char* key, const std::optional<double>& member) {
         json[key] = optionalNumber(member);
     }
@@ -229,7 +115,7 @@ Json toJson(const Node& node) {
     if (node.restTrs) {
         json["transform"] = trsToJson(*node.restTrs);
     } else {
-        json["matrix"] = numbers(&node.localFromNode[0][0], 16);
+        json["matrix"] = numbersJson(&node.localFromNode[0][0], 16);
     }
     return json;
 }
@@ -345,9 +231,9 @@ Json valueToJson(const EditValue& value) {
             if constexpr (std::is_same_v<T, std::monostate>) {
                 return nullptr;
             } else if constexpr (std::is_same_v<T, glm::dvec3>) {
-                return numbers(&held.x, 3);
+                return numbersJson(&held.x, 3);
             } else if constexpr (std::is_same_v<T, glm::dmat4>) {
-                return numbers(&held[0][0], 16);
+                return numbersJson(&held[0][0], 16);
             } else if constexpr (std::is_same_v<T, Trs>) {
                 return trsToJson(held);
             } else if constexpr (std::is_same_v<T, LightType> || std::is_same_v<T, LightUnit>) {

@@ -74,6 +74,48 @@ bool isSortedById(const auto& array) {
                           [](const auto& a, const auto& b) { return a.id < b.id; });
 }
 
+// The nodes of a session from those of the saved file; `opened` gets the session's ids, and `sessionIndex`
+// tells where each node of the file stands in the session.
+std::optional<Error> takeNodes(const Json& state, const Scene& file, Scene& scene, Scene& opened,
+                               std::vector<int>& sessionIndex) {
+    const auto entries = state.find("nodes");
+    if (entries == state.end() || !entries->is_array()) return Error{"nodes: expected an array"};
+    sessionIndex.assign(file.nodes.size(), -1);
+    std::vector<Node> nodes;
+    std::vector<bool> isExact; // stands in the state with every digit, its parent as in the session
+    for (const Json& entry : *entries) {
+        if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_integer())
+            return Error{"nodes: expected pairs"};
+        const auto place = entry[0].get<std::int64_t>();
+        const bool inFile = place >= 0 && place < static_cast<std::int64_t>(file.nodes.size());
+        Node node;
+        if (inFile) node = file.nodes[static_cast<std::size_t>(place)];
+        isExact.push_back(entry[1].is_object());
+        if (isExact.back() && (inFile || place == -1)) {
+            Node exact;
+            if (std::optional<Error> error = fromJson(entry[1], exact)) return error;
+            if (inFile) exact.mesh = node.mesh, exact.visible = node.visible;
+            node = exact;
+        } else if (entry[1].is_number_unsigned() && inFile) {
+            node.id = entry[1].get<std::uint64_t>();
+        } else {
+            return Error{"nodes: expected a place in the file with an id or a node"};
+        }
+        if (inFile) {
+            sessionIndex[static_cast<std::size_t>(place)] = static_cast<int>(nodes.size());
+            opened.nodes[static_cast<std::size_t>(place)].id = node.id;
+        }
+        nodes.push_back(std::move(node));
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        int& parent = nodes[i].parent;
+        if (!isExact[i] && parent >= 0) parent = sessionIndex[static_cast<std::size_t>(parent)];
+        if (parent >= static_cast<int>(nodes.size())) return Error{"nodes: expected a parent that exists"};
+    }
+    scene.nodes = std::move(nodes);
+    return std::nullopt;
+}
+
 void putAside(const fs::path& path) {
     std::error_code ignored;
     fs::rename(path, path.string() + ".old", ignored);
@@ -124,43 +166,8 @@ Json EditSession::stateJson(const SavePlan& plan, std::uint64_t fileHash) const 
 std::optional<Error> EditSession::takeState(const Json& state) {
     const Scene file = opened_;
     Scene scene = file, opened = file;
-    const auto nodes = state.find("nodes");
-    if (nodes == state.end() || !nodes->is_array()) return Error{"nodes: expected an array"};
-    std::vector<int> sessionIndex(file.nodes.size(), -1);
-    std::vector<Node> sessionNodes;
-    std::vector<bool> isExact;
-    for (const Json& entry : *nodes) {
-        if (!entry.is_array() || entry.size() != 2 || !entry[0].is_number_integer())
-            return Error{"nodes: expected pairs"};
-        const auto place = entry[0].get<std::int64_t>();
-        const bool inFile = place >= 0 && place < static_cast<std::int64_t>(file.nodes.size());
-        if (!inFile && place != -1) return Error{"nodes: expected a place in the file"};
-        Node node;
-        if (inFile) node = file.nodes[static_cast<std::size_t>(place)];
-        isExact.push_back(entry[1].is_object());
-        if (isExact.back()) {
-            Node exact;
-            if (std::optional<Error> error = fromJson(entry[1], exact)) return error;
-            if (inFile) exact.mesh = node.mesh, exact.visible = node.visible;
-            node = exact;
-        } else if (entry[1].is_number_unsigned() && inFile) {
-            node.id = entry[1].get<std::uint64_t>();
-        } else {
-            return Error{"nodes: expected an id or a node"};
-        }
-        if (inFile) {
-            sessionIndex[static_cast<std::size_t>(place)] = static_cast<int>(sessionNodes.size());
-            opened.nodes[static_cast<std::size_t>(place)].id = node.id;
-        }
-        sessionNodes.push_back(std::move(node));
-    }
-    for (std::size_t i = 0; i < sessionNodes.size(); ++i) {
-        int& parent = sessionNodes[i].parent;
-        if (!isExact[i] && parent >= 0) parent = sessionIndex[static_cast<std::size_t>(parent)];
-        if (parent >= static_cast<int>(sessionNodes.size()))
-            return Error{"nodes: expected a parent that exists"};
-    }
-    scene.nodes = sessionNodes;
+    std::vector<int> sessionIndex;
+    if (std::optional<Error> error = takeNodes(state, file, scene, opened, sessionIndex)) return error;
     std::vector<LightDef> defs;
     std::vector<LightNode> lights;
     std::vector<LightGroup> groups;
@@ -170,7 +177,7 @@ std::optional<Error> EditSession::takeState(const Json& state) {
     if (std::optional<Error> error = readArray(state, "groups", groups)) return error;
     if (std::optional<Error> error = readArray(state, "bookmarks", scene.bookmarks)) return error;
     const bool inRange = std::all_of(lights.begin(), lights.end(), [&](const LightNode& light) {
-        return light.node >= 0 && light.node < static_cast<int>(sessionNodes.size()) && light.def >= 0 &&
+        return light.node >= 0 && light.node < static_cast<int>(scene.nodes.size()) && light.def >= 0 &&
                light.def < static_cast<int>(defs.size());
     });
     if (!inRange || !isSortedById(lights) || !isSortedById(groups) || !isSortedById(scene.bookmarks))
