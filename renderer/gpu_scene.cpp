@@ -7,6 +7,7 @@
 #include "renderer/lights_cpp/ltc_table.h"
 #include "shaders/shared/features.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
 #include <map>
@@ -75,15 +76,19 @@ const Material& materialOf(const Scene& scene, int index) {
     return index >= 0 ? scene.materials[std::size_t(index)] : kDefault;
 }
 
+void setRows(GpuInstance& gpu, const glm::dmat4& m) {
+    gpu.row0 = glm::vec4(m[0][0], m[1][0], m[2][0], m[3][0]);
+    gpu.row1 = glm::vec4(m[0][1], m[1][1], m[2][1], m[3][1]);
+    gpu.row2 = glm::vec4(m[0][2], m[1][2], m[2][2], m[3][2]);
+}
+
 GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, const Material& material,
                          const PrimitivePlace& place, const glm::dvec3& anchor,
                          std::uint32_t defaultMaterial) {
     glm::dmat4 m = instance.worldFromLocal;
     m[3] -= glm::dvec4(anchor, 0.0);
     GpuInstance gpu{};
-    gpu.row0 = glm::vec4(m[0][0], m[1][0], m[2][0], m[3][0]);
-    gpu.row1 = glm::vec4(m[0][1], m[1][1], m[2][1], m[3][1]);
-    gpu.row2 = glm::vec4(m[0][2], m[1][2], m[2][2], m[3][2]);
+    setRows(gpu, m);
     gpu.firstVertex = place.firstVertex;
     gpu.firstIndex = place.firstIndex;
     gpu.firstUv1 = place.firstUv1;
@@ -105,7 +110,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(gpu::Device& device, const Sc
     result->instances_ = enumerateInstances(scene);
     std::vector<std::uint32_t> placeOfImage;
     if (auto error = result->uploadTextures(scene, placeOfImage)) return *error;
-    result->uploadGeometry(scene);
+    result->uploadGeometry(scene, moving);
     result->uploadMaterials(scene, placeOfImage);
     result->world_ = buildWorld(scene, result->instances_, moving, anchor);
     if (auto error = GpuRayWorld::excess(device, result->world_)) {
@@ -118,11 +123,12 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(gpu::Device& device, const Sc
     result->world_.pairIds = {};
     result->world_.alpha = {};
     result->decideFeatures(scene);
-    if (auto error = result->uploadLights(scene, exposureEv100)) return *error;
+    result->uploadLtcTable();
+    result->updateLights(scene, exposureEv100, 0);
     return result;
 }
 
-void GpuScene::uploadGeometry(const Scene& scene) {
+void GpuScene::uploadGeometry(const Scene& scene, const std::vector<bool>& moving) {
     std::map<std::pair<int, int>, PrimitivePlace> places;
     std::vector<glm::uvec4> vertices;
     std::vector<std::uint32_t> indices;
@@ -140,8 +146,12 @@ void GpuScene::uploadGeometry(const Scene& scene) {
             uv1s.insert(uv1s.end(), primitive.uv1.begin(), primitive.uv1.end());
         }
         const Material& material = materialOf(scene, instance.material);
-        const GpuInstance gpu = makeInstance(instance, primitive, material, place->second, anchor_,
-                                             std::uint32_t(scene.materials.size()));
+        GpuInstance gpu = makeInstance(instance, primitive, material, place->second, anchor_,
+                                       std::uint32_t(scene.materials.size()));
+        if (i < moving.size() && moving[i]) {
+            gpu.flags |= INSTANCE_MOVING;
+            movingInstances_.push_back(std::uint32_t(i));
+        }
         gpuInstances.push_back(gpu);
         triangles_ += instance.triangleCount;
         const Bounds bounds = boundsOf(primitive, instance.worldFromLocal);
@@ -168,6 +178,11 @@ void GpuScene::uploadGeometry(const Scene& scene) {
     indexBuffer_.upload(indices);
     uv1Buffer_ = texelBuffer(device_, "uv1s", uv1s, VK_FORMAT_R32G32_SFLOAT, "geometry");
     instanceBuffer_ = storageBuffer(device_, "instances", gpuInstances, "geometry");
+    if (movingInstances_.empty()) return;
+    for (const GpuInstance& gpu : gpuInstances)
+        previousRows_.push_back({gpu.row0, gpu.row1, gpu.row2});
+    previousInstanceBuffer_ = storageBuffer(device_, "previousInstances", previousRows_, "geometry");
+    gpuInstances_ = std::move(gpuInstances);
 }
 
 void GpuScene::uploadMaterials(const Scene& scene, const std::vector<std::uint32_t>& placeOfImage) {
@@ -200,28 +215,7 @@ std::optional<Error> GpuScene::uploadTextures(const Scene& scene, std::vector<st
     return std::nullopt;
 }
 
-std::optional<Error> GpuScene::uploadLights(const Scene& scene, double exposureEv100) {
-    GpuLights lights = makeGpuLights(scene, anchor_, exposureEv100);
-    lightCount_ = std::uint32_t(lights.hot.size());
-    derivedRanges_ = lights.derivedRanges;
-    // The uniform block is as large as the shader declares it, whatever the scene holds.
-    lights.hot.resize(std::max<std::size_t>(lights.hot.size(), LIGHT_UNIFORM_SLOTS),
-                      LightHot{.typeFlags = LIGHT_FLAG_DEAD});
-    gpu::BufferDesc desc{"lightsHot",
-                         lights.hot.size() * sizeof(LightHot),
-                         kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                         gpu::MemoryUse::DeviceOnly,
-                         "lights",
-                         VK_FORMAT_R32G32B32A32_UINT};
-    lightsHot_ = gpu::Buffer(device_, desc);
-    lightsHot_.upload(lights.hot);
-    lightsCold_ = storageBuffer(device_, "lightsCold", lights.cold, "lights");
-    std::vector<std::uint32_t> directional;
-    for (std::uint32_t slot = 0; slot < lightCount_; ++slot) {
-        if ((lights.hot[slot].typeFlags & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL) directional.push_back(slot);
-    }
-    directionalCount_ = std::uint32_t(directional.size());
-    directionalSlots_ = storageBuffer(device_, "directionalSlots", directional, "lights");
+void GpuScene::uploadLtcTable() {
     const LtcTable& table = boundLtcTable();
     const auto image = [&](const char* name, const std::vector<glm::vec4>& texels) {
         gpu::Image result(device_, {.name = name,
@@ -235,7 +229,63 @@ std::optional<Error> GpuScene::uploadLights(const Scene& scene, double exposureE
     };
     ltcParameters_ = image("ltcParameters", table.parameters);
     ltcScales_ = image("ltcScales", table.scales);
-    return std::nullopt;
+}
+
+void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint64_t frame,
+                            const std::vector<glm::dvec3>& offsetsM) {
+    GpuLights lights = makeGpuLights(scene, anchor_, exposureEv100);
+    std::vector<std::uint64_t> ids;
+    for (std::size_t i = 0; i < lights.hot.size(); ++i) {
+        ids.push_back(scene.lights[i].id);
+        if (i < offsetsM.size()) lights.hot[i].positionWs += glm::vec3(offsetsM[i]);
+    }
+    derivedRanges_ = lights.derivedRanges;
+    slots_.update(lights, ids, frame);
+    lightCount_ = std::uint32_t(slots_.hot().size());
+    freshSlots_ = slots_.fresh();
+    if (!slots_.changed() && lightsHot_) return;
+    decideLightFeatures();
+    const std::vector<std::uint32_t> directional = slots_.directional();
+    directionalCount_ = std::uint32_t(directional.size());
+    // The uniform block is as large as the shader declares it, whatever the scene holds.
+    std::vector<LightHot> hot = slots_.hot();
+    hot.resize(std::max<std::size_t>(hot.size(), LIGHT_UNIFORM_SLOTS), LightHot{.typeFlags = LIGHT_FLAG_DEAD});
+    if (!lightsHot_ || lightsHot_.bytes() != hot.size() * sizeof(LightHot)) {
+        lightsHot_ = gpu::Buffer(device_, {"lightsHot", hot.size() * sizeof(LightHot),
+                                           kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                                           gpu::MemoryUse::DeviceOnly, "lights", VK_FORMAT_R32G32B32A32_UINT});
+    }
+    lightsHot_.upload(hot);
+    lightsCold_ = storageBuffer(device_, "lightsCold", slots_.cold(), "lights");
+    directionalSlots_ = storageBuffer(device_, "directionalSlots", directional, "lights");
+}
+
+void GpuScene::updateMovingInstances(const Scene& scene) {
+    if (movingInstances_.empty()) return;
+    for (const std::uint32_t i : movingInstances_) {
+        Instance& instance = instances_[i];
+        instance.worldFromLocal = scene.nodes[std::size_t(instance.node)].worldFromNode;
+        glm::dmat4 m = instance.worldFromLocal;
+        m[3] -= glm::dvec4(anchor_, 0.0);
+        GpuInstance& gpu = gpuInstances_[i];
+        previousRows_[i] = {gpu.row0, gpu.row1, gpu.row2};
+        setRows(gpu, m);
+        gpu.flags = (gpu.flags & ~INSTANCE_MIRRORED) |
+                    (glm::determinant(glm::dmat3(m)) < 0.0 ? INSTANCE_MIRRORED : 0u);
+        const Bounds bounds = boundsOf(primitiveOf(scene, instance), instance.worldFromLocal);
+        for (std::vector<DrawItem>* draws : {&opaque_, &transparent_}) {
+            for (DrawItem& draw : *draws) {
+                if (draw.instance != i) continue;
+                draw.boundsMin = bounds.min;
+                draw.boundsMax = bounds.max;
+                draw.clockwise = gpu.flags & INSTANCE_MIRRORED;
+            }
+        }
+    }
+    instanceBuffer_.upload(gpuInstances_);
+    previousInstanceBuffer_.upload(previousRows_);
+    updateInstances(world_, instances_, anchor_);
+    rayWorld_->update(world_);
 }
 
 void GpuScene::decideFeatures(const Scene& scene) {
@@ -249,29 +299,24 @@ void GpuScene::decideFeatures(const Scene& scene) {
             if (ref->image >= 0) features_[FEATURE_TEXTURES] = 1;
         }
     }
-    for (const LightNode& light : scene.lights) {
-        switch (scene.lightDefs[std::size_t(light.def)].type) {
-        case LightType::Directional:
-            features_[FEATURE_DIRECTIONAL_LIGHTS] = 1;
-            break;
-        case LightType::Sphere:
-            features_[FEATURE_SPHERE_LIGHTS] = 1;
-            break;
-        case LightType::Spot:
-            features_[FEATURE_SPOT_LIGHTS] = 1;
-            break;
-        case LightType::Tube:
-            features_[FEATURE_TUBE_LIGHTS] = 1;
-            break;
-        case LightType::Rect:
-            features_[FEATURE_RECT_LIGHTS] = 1;
-            break;
-        case LightType::Disk:
-            features_[FEATURE_DISK_LIGHTS] = 1;
-            break;
-        }
+    features_[FEATURE_MOVING_INSTANCES] = !movingInstances_.empty();
+}
+
+void GpuScene::decideLightFeatures() {
+    constexpr std::array<std::pair<std::uint32_t, int>, 6> kFeatureOfType{
+        {{LIGHT_DIRECTIONAL, FEATURE_DIRECTIONAL_LIGHTS},
+         {LIGHT_SPHERE, FEATURE_SPHERE_LIGHTS},
+         {LIGHT_SPOT, FEATURE_SPOT_LIGHTS},
+         {LIGHT_TUBE, FEATURE_TUBE_LIGHTS},
+         {LIGHT_RECT, FEATURE_RECT_LIGHTS},
+         {LIGHT_DISK, FEATURE_DISK_LIGHTS}}};
+    for (const auto& [type, feature] : kFeatureOfType) {
+        features_[std::uint32_t(feature)] =
+            std::any_of(slots_.hot().begin(), slots_.hot().end(), [type = type](const LightHot& hot) {
+                return !(hot.typeFlags & LIGHT_FLAG_DEAD) && (hot.typeFlags & LIGHT_TYPE_MASK) == type;
+            });
     }
-    const bool fits = scene.lights.size() <= LIGHT_UNIFORM_SLOTS &&
+    const bool fits = slots_.hot().size() <= LIGHT_UNIFORM_SLOTS &&
                       device_.limits().maxUniformBufferRange >= LIGHT_UNIFORM_SLOTS * sizeof(LightHot);
     features_[CHOICE_LIGHTS_IN_UNIFORM] = fits;
 }

@@ -4,6 +4,7 @@
 
 #include "renderer/accel_gpu/gpu_ray_world.h"
 #include "renderer/document/scene.h"
+#include "renderer/light_slots.h"
 #include "renderer/gpu/pass.h"
 #include "shaders/shared/geometry.h"
 
@@ -33,6 +34,18 @@ class GpuScene {
                                                     TraceBackEnd backEnd = TraceBackEnd::ComputeBvh,
                                                     const std::vector<bool>& moving = {});
 
+    // Takes over the scene's lights as they are now; `frame` counts up and says how long ago an edit was.
+    // `offsetsM` moves the i-th light; empty: none. The device must be idle.
+    void updateLights(const Scene& scene, double exposureEv100, std::uint64_t frame,
+                      const std::vector<glm::dvec3>& offsetsM = {});
+    // Takes over the transforms of the instances that create() was told may move; what they were becomes the
+    // previous one. Once a frame, also when nothing moved. The device must be idle.
+    void updateMovingInstances(const Scene& scene);
+
+    const LightSlots& slots() const { return slots_; }
+    const std::vector<std::uint32_t>& freshSlots() const { return freshSlots_; } // just edited, ascending
+    bool hasMovingInstances() const { return !movingInstances_.empty(); }
+
     const std::vector<Instance>& instances() const { return instances_; }
     const std::vector<DrawItem>& opaqueDraws() const { return opaque_; }
     const std::vector<DrawItem>& transparentDraws() const { return transparent_; }
@@ -57,11 +70,12 @@ class GpuScene {
 
   private:
     GpuScene(gpu::Device& device, const glm::dvec3& anchor) : device_(device), anchor_(anchor) {}
-    void uploadGeometry(const Scene& scene);
+    void uploadGeometry(const Scene& scene, const std::vector<bool>& moving);
     void uploadMaterials(const Scene& scene, const std::vector<std::uint32_t>& placeOfImage);
     std::optional<Error> uploadTextures(const Scene& scene, std::vector<std::uint32_t>& placeOfImage);
-    std::optional<Error> uploadLights(const Scene& scene, double exposureEv100);
+    void uploadLtcTable();
     void decideFeatures(const Scene& scene);
+    void decideLightFeatures();
 
     gpu::Device& device_;
     glm::dvec3 anchor_;
@@ -70,6 +84,11 @@ class GpuScene {
     RayWorld world_; // large arrays emptied after the upload
     std::unique_ptr<GpuRayWorld> rayWorld_;
     gpu::SpecValues features_;
+    LightSlots slots_;
+    std::vector<std::uint32_t> freshSlots_;
+    std::vector<std::uint32_t> movingInstances_;
+    std::vector<shared::GpuInstance> gpuInstances_;   // only where some move
+    std::vector<shared::InstanceRows> previousRows_; // only where some move
     std::uint32_t lightCount_ = 0;
     int derivedRanges_ = 0;
     std::size_t triangles_ = 0;

@@ -1,0 +1,112 @@
+#include "renderer/light_slots.h"
+
+#include "renderer/document/light_units.h"
+#include "shaders/shared/sampling.h"
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+namespace kilolux {
+
+using namespace shared;
+
+namespace {
+
+template<typename T>
+bool sameBytes(const T& a, const T& b) {
+    return std::memcmp(&a, &b, sizeof(T)) == 0;
+}
+
+} // namespace
+
+std::uint32_t LightSlots::take(std::uint64_t id, std::uint64_t frame) {
+    std::uint32_t slot = 0;
+    while (slot < slots_.size() && (slots_[slot].id != 0 || frame < slots_[slot].diedFrame + kRestFrames))
+        ++slot;
+    if (slot == slots_.size()) {
+        slots_.emplace_back();
+        hot_.push_back(LightHot{});
+        plain_.push_back(LightHot{});
+        cold_.push_back(LightCold{});
+    }
+    slots_[slot].id = id;
+    slotOfId_[id] = slot;
+    return slot;
+}
+
+void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame) {
+    changed_ = edited_ = false;
+    const auto markEdited = [&](Slot& slot) {
+        if (first_) return;
+        ++slot.epoch;
+        slot.editedFrame = frame;
+        slot.wasEdited = edited_ = true;
+    };
+    const std::set<std::uint64_t> living(ids.begin(), ids.end());
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+        if (slots_[i].id == 0 || living.contains(slots_[i].id)) continue;
+        slotOfId_.erase(slots_[i].id);
+        slots_[i].id = 0;
+        slots_[i].diedFrame = frame;
+        plain_[i] = LightHot{};
+        plain_[i].typeFlags = LIGHT_FLAG_DEAD;
+        markEdited(slots_[i]);
+    }
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const auto found = slotOfId_.find(ids[i]);
+        const bool isNew = found == slotOfId_.end();
+        const std::uint32_t slot = isNew ? take(ids[i], frame) : found->second;
+        LightCold cold = lights.cold[i];
+        cold.epoch = cold_[slot].epoch;
+        if (isNew || !sameBytes(plain_[slot], lights.hot[i]) ||
+            cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
+            markEdited(slots_[slot]);
+        }
+        plain_[slot] = lights.hot[i];
+        cold.epoch = slots_[slot].epoch;
+        changed_ = changed_ || !sameBytes(cold, cold_[slot]);
+        cold_[slot] = cold;
+    }
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+        LightHot hot = plain_[i];
+        const bool recent = slots_[i].wasEdited && frame < slots_[i].editedFrame + LIGHT_EDITED_FRAMES;
+        if (recent) hot.typeFlags |= LIGHT_FLAG_EDITED;
+        hot.typeFlags |= (slots_[i].epoch & LIGHT_EPOCH_MASK) << LIGHT_EPOCH_SHIFT;
+        changed_ = changed_ || !sameBytes(hot, hot_[i]);
+        hot_[i] = hot;
+    }
+    first_ = false;
+}
+
+std::vector<std::uint32_t> LightSlots::fresh() const {
+    std::vector<std::uint32_t> slots;
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+        const std::uint32_t flags = hot_[i].typeFlags;
+        const bool local = (flags & LIGHT_TYPE_MASK) != LIGHT_DIRECTIONAL;
+        const bool on = (flags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) == 0u;
+        if (local && on && (flags & LIGHT_FLAG_EDITED)) slots.push_back(i);
+    }
+    const auto strength = [&](std::uint32_t slot) { return luminanceOf(glm::dvec3(hot_[slot].intensity)); };
+    std::stable_sort(slots.begin(), slots.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return strength(a) > strength(b); });
+    slots.resize(std::min<std::size_t>(slots.size(), FRESH_LIGHTS));
+    std::sort(slots.begin(), slots.end());
+    return slots;
+}
+
+std::vector<std::uint32_t> LightSlots::directional() const {
+    std::vector<std::uint32_t> slots;
+    for (std::uint32_t i = 0; i < slots_.size(); ++i) {
+        const std::uint32_t flags = hot_[i].typeFlags;
+        if (!(flags & LIGHT_FLAG_DEAD) && (flags & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL) slots.push_back(i);
+    }
+    return slots;
+}
+
+std::uint32_t LightSlots::slotOf(std::uint64_t id) const {
+    const auto found = slotOfId_.find(id);
+    return found == slotOfId_.end() ? 0xffffffffu : found->second;
+}
+
+} // namespace kilolux
