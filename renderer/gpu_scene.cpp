@@ -249,11 +249,13 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
     directionalCount_ = std::uint32_t(directional.size());
     // The uniform block is as large as the shader declares it, whatever the scene holds.
     std::vector<LightHot> hot = slots_.hot();
-    hot.resize(std::max<std::size_t>(hot.size(), LIGHT_UNIFORM_SLOTS), LightHot{.typeFlags = LIGHT_FLAG_DEAD});
+    hot.resize(std::max<std::size_t>(hot.size(), LIGHT_UNIFORM_SLOTS),
+               LightHot{.typeFlags = LIGHT_FLAG_DEAD});
     if (!lightsHot_ || lightsHot_.bytes() != hot.size() * sizeof(LightHot)) {
-        lightsHot_ = gpu::Buffer(device_, {"lightsHot", hot.size() * sizeof(LightHot),
-                                           kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                                           gpu::MemoryUse::DeviceOnly, "lights", VK_FORMAT_R32G32B32A32_UINT});
+        lightsHot_ =
+            gpu::Buffer(device_, {"lightsHot", hot.size() * sizeof(LightHot),
+                                  kTexels | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::DeviceOnly,
+                                  "lights", VK_FORMAT_R32G32B32A32_UINT});
     }
     lightsHot_.upload(hot);
     lightsCold_ = storageBuffer(device_, "lightsCold", slots_.cold(), "lights");

@@ -4,8 +4,8 @@
 
 #include "renderer/accel_gpu/gpu_ray_world.h"
 #include "renderer/document/scene.h"
-#include "renderer/light_slots.h"
 #include "renderer/gpu/pass.h"
+#include "renderer/light_slots.h"
 #include "shaders/shared/geometry.h"
 
 #include <array>
@@ -87,7 +87,7 @@ class GpuScene {
     LightSlots slots_;
     std::vector<std::uint32_t> freshSlots_;
     std::vector<std::uint32_t> movingInstances_;
-    std::vector<shared::GpuInstance> gpuInstances_;   // only where some move
+    std::vector<shared::GpuInstance> gpuInstances_;  // only where some move
     std::vector<shared::InstanceRows> previousRows_; // only where some move
     std::uint32_t lightCount_ = 0;
     int derivedRanges_ = 0;

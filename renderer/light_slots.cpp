@@ -59,8 +59,7 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
         const std::uint32_t slot = isNew ? take(ids[i], frame) : found->second;
         LightCold cold = lights.cold[i];
         cold.epoch = cold_[slot].epoch;
-        if (isNew || !sameBytes(plain_[slot], lights.hot[i]) ||
-            cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
+        if (isNew || !sameBytes(plain_[slot], lights.hot[i]) || cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
             markEdited(slots_[slot]);
         }
         plain_[slot] = lights.hot[i];

@@ -1,6 +1,6 @@
-// Which slot of the light records a light has: the same one for life, however the document sorts, groups, mutes or
-// undoes, because lists and samples of earlier frames name lights by slot. A freed slot stays dead until nothing
-// can name it any more and then goes to a new light in the next epoch.
+// Which slot of the light records a light has: the same one for life, however the document sorts, groups,
+// mutes or undoes, because lists and samples of earlier frames name lights by slot. A freed slot stays dead
+// until nothing can name it any more and then goes to a new light in the next epoch.
 #pragma once
 
 #include "renderer/gpu_lights.h"
@@ -13,12 +13,14 @@ namespace kilolux {
 
 class LightSlots {
   public:
-    // Frames that a freed slot stays dead: longer than a visible list remembers (setting listMemory, at most 15).
+    // Frames that a freed slot stays dead: longer than a visible list remembers (setting listMemory, at most
+    // 15).
     static constexpr std::uint64_t kRestFrames = 32;
 
     // Takes over the lights of a frame: `lights` are the records of Scene::lights in order, `ids` their
-    // LightNode::id, all different and none 0. The first call marks nothing as edited. A record that differs from
-    // the frame before raises its slot's epoch and is edited for LIGHT_EDITED_FRAMES frames. Frames count up.
+    // LightNode::id, all different and none 0. The first call marks nothing as edited. A record that differs
+    // from the frame before raises its slot's epoch and is edited for LIGHT_EDITED_FRAMES frames. Frames
+    // count up.
     void update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame);
 
     // Slot records as the device wants them; dead ones have LIGHT_FLAG_DEAD.

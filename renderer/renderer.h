@@ -71,7 +71,28 @@ class Renderer {
     // Renders options.frames frames. Errors: lost device, out of memory, cancelled.
     Result<Picture> render(const RenderProgress& progress);
 
-    FrameStatistics statistics() const; // of the last render()
+    // --- Frame by frame, for windows and tests; render() is a loop of these. What is set holds from the next
+    // frame on. History goes on through all of them but a cut and changed settings.
+
+    std::optional<Error> renderFrame(); // the next one; the first compiles
+    Picture picture() const;            // of the last frame
+    enum class CameraChange { Move, Cut };
+    void setCamera(const Camera& camera, CameraChange change);
+    // Takes over lights, their definitions and groups, and the nodes' transforms from an edited copy of the
+    // scene with the same nodes and meshes. Instances move only if an animation of the scene moves them.
+    void setLights(const Scene& edited);
+    void setExposureEv100(double ev100);
+    void setRenderScale(double scale); // 0.1 to 1 of the picture's width and height
+    // Any other settings; history and targets begin anew. On error the old ones stay.
+    std::optional<Error> setSettings(const Settings& settings);
+
+    // For tests: the visible light lists that the next frame finds, LIST_TEXELS texels a tile
+    // (shared/sampling.h).
+    std::vector<glm::uvec2> visibleLists() const;
+    void replaceVisibleLists(const std::vector<glm::uvec2>& texels);
+    std::uint32_t lightSlot(std::uint64_t lightId) const; // 0xffffffff for lights that are not there
+
+    FrameStatistics statistics() const; // of the last render(), or of all frames since create()
 
     // Every target of the last frame; empty unless options.keepTargets.
     Result<std::vector<NamedImage>> targets();

@@ -73,6 +73,12 @@ struct Settings {
     bool antiAlias = true;
     double antiAliasFrames = 32.0;
     double antiAliasClip = 1.25;
+    double renderScale = 1.0;
+    double timeS = 0.0;
+    double timeStepS = 0.0;
+    double cameraTurn = 0.0;
+    double cameraDolly = 0.0;
+    double lightsSway = 0.0;
     int freezeFrame = 0;
     bool freezeNoise = false;
     bool freezeLists = false;

@@ -53,6 +53,7 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["bvh"] = {{"buildMs", s.bvhBuildMs}, {"bytesPerTriangle", s.bvhBytesPerTriangle}};
     json["lightGrid"] = {
         {"indices", s.gridIndices}, {"tests", s.gridTests}, {"coarseCells", s.gridCoarseCells}};
+    json["historyReset"] = s.historyReset;
     json["notes"] = s.notes;
     return json;
 }

@@ -60,6 +60,7 @@ struct FrameStatistics {
     std::uint32_t gridCoarseCells = 0; // cells that took their coarse cell's list for want of room
     double bvhBuildMs = 0.0;           // flattening, pairing, building
     double bvhBytesPerTriangle = 0.0;  // nodes and triangles together
+    std::string historyReset;          // why history last began anew
     std::vector<std::string> notes;    // what the renderer decided for the user, one line each
 };
 

@@ -11,7 +11,7 @@ ToneMapPass::ToneMapPass(gpu::PassResources& resources)
 void ToneMapPass::record(FrameContext& frame, const gpu::Image& picture) {
     pass_.record(frame.commands, frame.features,
                  {{"Frame", frame.frameBuffer}, {"picture", picture}, {"displayOut", frame.targets.display}},
-                 frame.tiles());
+                 frame.outputTiles());
 }
 
 DebugViewPass::DebugViewPass(gpu::PassResources& resources)
@@ -70,7 +70,7 @@ void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
                           frame.scene.environmentBrdf(),
                           {"displayOut", targets.display},
                           {"viewValuesOut", targets.viewValues}}}),
-                 depthScaleM, frame.tiles());
+                 depthScaleM, frame.outputTiles());
 }
 
 } // namespace kilolux

@@ -22,9 +22,15 @@ struct FrameContext {
     const LightGrid& grid;
     gpu::SpecValues features;
     const VisibleLists* lists = nullptr; // of the stochastic method
+    const gpu::Image* noise = nullptr;   // of the stochastic method
 
     // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
     gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
+    // The same over the shown picture.
+    gpu::GroupCount outputTiles() const {
+        const glm::uvec2 count = (constants.outputSize + 7u) / 8u;
+        return {count.x * count.y};
+    }
 };
 
 class RasterVisibilityPass {

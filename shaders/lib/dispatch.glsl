@@ -14,4 +14,19 @@ bool isInPicture(uvec2 pixel) {
     return all(lessThan(pixel, frame.size));
 }
 
+// The same for passes over the shown picture, which may be larger than the part that the frame renders.
+uvec2 dispatchedOutputPixel() {
+    return interleavedTile(gl_WorkGroupID.x, (frame.outputSize + 7u) / 8u, frame.tileChunks) * 8u +
+           gl_LocalInvocationID.xy;
+}
+
+bool isInOutput(uvec2 pixel) {
+    return all(lessThan(pixel, frame.outputSize));
+}
+
+// Where a shown pixel's centre lies in the rendered part, in its pixels.
+vec2 renderedFromOutput(uvec2 pixel) {
+    return (vec2(pixel) + 0.5) * (vec2(frame.size) / vec2(frame.outputSize));
+}
+
 #endif

@@ -114,8 +114,9 @@ vec3 showFilters(ivec2 at, Surface s, out vec3 value) {
 }
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
-    if (!isInPicture(pixel)) return;
+    uvec2 shownPixel = dispatchedOutputPixel();
+    if (!isInOutput(shownPixel)) return;
+    uvec2 pixel = min(uvec2(renderedFromOutput(shownPixel)), frame.size - 1u);
     ivec2 at = ivec2(pixel);
     float depthM = texelFetch(gDepth, at, 0).x;
     uvec2 ids = texelFetch(visibility, at, 0).xy;
@@ -161,6 +162,6 @@ void main() {
     if (kView >= VIEW_CHOSEN_LIGHT && kView <= VIEW_REPROJECTION) shown = showSampling(pixel, value);
     if (kView >= VIEW_HISTORY_LENGTH && kView <= VIEW_DENOISED_SPECULAR) shown = showFilters(at, s, value);
     if (depthM >= DEPTH_SKY) shown = vec3(0.0);
-    imageStore(displayOut, at, vec4(shown, 1.0));
-    imageStore(viewValuesOut, at, vec4(value, 1.0));
+    imageStore(displayOut, ivec2(shownPixel), vec4(shown, 1.0));
+    imageStore(viewValuesOut, ivec2(shownPixel), vec4(value, 1.0));
 }

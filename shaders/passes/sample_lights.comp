@@ -10,13 +10,13 @@ layout(constant_id = CHOICE_HALF_SAMPLING) const int kHalfSampling = HALF_OFF;
 
 #include "lib/count.glsl"
 #include "lib/light_grid.glsl"
+#include "lib/noise.glsl"
 #include "lib/receiver.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/sample.glsl"
 #include "lib/sampled_pixel.glsl"
 #include "lib/visible_list.glsl"
 #include "math/area_mask.glsl"
-#include "math/hash.glsl"
 #include "math/selection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -54,11 +54,6 @@ uint maskOfEntry(uint at, LightHot light) {
     VisibleEntry entry = unpackEntry(texelFetch(visibleLists, int(visibleAt + at)).x);
     bool current = entry.epoch == (light.typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK);
     return current && frame.sampling.areaMasks != 0u ? entry.recent | entry.older : 0u;
-}
-
-PixelNoise pixelNoise(uvec2 pixel, uint frameIndex, uint seed) {
-    uint sampleSeed = pixelSeed(pixel, frameIndex, seed);
-    return PixelNoise(vec3(whiteNoise2(sampleSeed, 0u), whiteNoise1(sampleSeed, 1u)), whiteNoise2(sampleSeed, 2u));
 }
 
 // Whether a part of the light may be below the receiver's horizon. There the points are drawn again until one is
@@ -100,7 +95,7 @@ void main() {
     uint stride = cellStride(cell.count, missed ? how.missCandidates : how.cellCandidates);
     uint offset = cellOffset(whiteNoise1(seed, 9u), stride);
 
-    PixelNoise noise = pixelNoise(pixel, how.noiseFrame, frame.seed);
+    PixelNoise noise = pixelNoise(stored, how.noiseFrame, frame.seed);
     LightSelection selection = beginSelection(noise.numbers, how.choices);
     float albedo = luminance(diffuseAlbedo(receiver.surface)), f0 = luminance(specularF0(receiver.surface));
     LightWalk walk = beginWalk(visibleCount, how.freshCount, cell.count, stride, offset);

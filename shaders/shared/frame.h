@@ -21,6 +21,7 @@ struct FrameConstants {
     vec3 dirStepX;
     vec3 dirStepY;
     uvec2 size;      // pixels of the sub-rectangle that this frame renders
+    uvec2 outputSize; // pixels of the picture that is shown
     uvec2 tiles;     // of 8 x 8 pixels that cover it
     uint tileChunks; // runs of workgroups that the device executes side by side (lib/tile_order.glsl)
     uint frame;      // since the start, for noise

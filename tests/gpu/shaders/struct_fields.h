@@ -11,7 +11,7 @@
 #define FIELDS_LightCold(F) F(rayEndBiasM) F(epoch) F(node) F(fluxLm)
 #define FIELDS_FrameConstants(F) \
     F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
-    F(size) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
+    F(size) F(outputSize) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
     F(rasterized) F(grid) F(steadyClipFromWorld) F(previousClipFromWorld) F(depthRow) F(previousDepthRow) \
     F(previousSize) F(previousTiles) F(exposureRatio) F(historyValid) F(sampling) F(denoising)
 #define FIELDS_SamplingConstants(F) \

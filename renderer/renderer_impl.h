@@ -1,0 +1,80 @@
+// What a Renderer holds between frames; see renderer.h. Preparing is in renderer_prepare.cpp, a frame in
+// renderer_frames.cpp.
+#pragma once
+
+#include "renderer/renderer.h"
+
+#include "renderer/camera.h"
+#include "renderer/frame.h"
+
+namespace kilolux {
+
+struct Renderer::Impl {
+    Impl(const Scene& source, const RenderOptions& renderOptions);
+
+    // --- renderer_prepare.cpp
+    std::optional<Error> prepare(); // once
+    std::optional<Error> prepareScene();
+    std::optional<Error> preparePlan(); // again whenever the settings change
+    void poisonTargets();
+
+    // --- renderer_frames.cpp
+    void runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes);
+    void compilePipelines();
+    Picture readPicture() const;
+
+    // --- renderer.cpp
+    Result<Picture> render(const RenderProgress& progress);
+    void describe();
+    void describeCounters();
+
+    // What the settings freeze stands still in this frame.
+    bool frozen(std::uint32_t index) const { return index >= std::uint32_t(options.settings.freezeFrame); }
+
+    double startMs;
+    Scene scene; // a copy: meshes and images are shared
+    RenderOptions options;
+    gpu::Device device;
+    gpu::PassResources resources;
+    Camera camera;        // at rest, before time and settings move it
+    int cameraIndex = -1; // into Scene::cameras while an animation may move it
+    FramePlan plan;
+    double exposureEv100 = 0.0;
+    std::unique_ptr<GpuScene> gpuScene;
+    std::unique_ptr<Targets> targets;
+    std::unique_ptr<FramePasses> passes;
+    std::unique_ptr<LightGrid> grid;
+    std::unique_ptr<VisibleLists> lists;
+    gpu::Image noise; // only of the stochastic method
+    GridUse gridUse;
+    double sceneExtentM = 0.0; // diagonal of the bounds
+    gpu::Buffer frameBuffer, counterBuffer;
+    shared::FrameConstants constants{};
+    gpu::SpecValues features; // what the settings decide; the scene's own are in GpuScene
+    gpu::Bindings world;
+
+    std::uint32_t nextFrame = 0;              // index of the next frame of renderFrame()
+    std::uint64_t framesRun = 0;              // ever
+    std::uint32_t meanFrames = 0;             // that the running mean holds
+    std::string historyReset = "first frame"; // why there is no history; empty: there is
+    std::string lastHistoryReset;             // the last one that happened
+    bool meanReset = true;                    // something changed that the mean does not survive
+    bool lightsDirty = false;                 // setLights() since the last frame
+    std::uint64_t lightsEditedRun = 0;        // framesRun of the last edit of a light
+
+    gpu::PassTimes times;
+    FrameStatistics statistics;
+    std::vector<std::uint64_t> counted = std::vector<std::uint64_t>(shared::COUNTER_COUNT); // of all frames
+
+  private:
+    Camera cameraAt(double timeS, const Scene& posed) const;
+    void updateScene(double timeS);
+    void describeFrame(std::uint32_t index, glm::ivec2 outputPx, const Camera& now);
+    void describeHistory(const shared::FrameConstants& before);
+    void countStillFrames(const shared::FrameConstants& before);
+};
+
+std::filesystem::path contentDirectory();
+double nowMs(); // of a steady clock
+
+} // namespace kilolux
