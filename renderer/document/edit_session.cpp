@@ -44,7 +44,7 @@ std::optional<Error> EditSession::apply(Change change, Merging merging) {
         ids_.avoid(edit);
     if (std::optional<Error> error = history_.apply(scene_, std::move(change), merging)) return error;
     ++version_;
-    record(json);
+    record(json.dump());
     return std::nullopt;
 }
 
@@ -56,7 +56,7 @@ std::optional<Error> EditSession::undo() {
     const Change change = history_.nextUndo();
     if (std::optional<Error> error = history_.undo(scene_)) return error;
     ++version_;
-    record({{"undo", toJson(change)}});
+    record(Json{{"undo", toJson(change)}}.dump());
     return std::nullopt;
 }
 
@@ -64,7 +64,7 @@ std::optional<Error> EditSession::redo() {
     const Change change = history_.nextRedo();
     if (std::optional<Error> error = history_.redo(scene_)) return error;
     ++version_;
-    record({{"redo", toJson(change)}});
+    record(Json{{"redo", toJson(change)}}.dump());
     return std::nullopt;
 }
 
@@ -78,7 +78,7 @@ std::optional<Error> EditSession::cancel() {
     if (std::optional<Error> error = history_.cancel(scene_)) return error;
     if (history_.state() == before) return std::nullopt;
     ++version_;
-    record({{"undo", toJson(change)}});
+    record(Json{{"undo", toJson(change)}}.dump());
     return std::nullopt;
 }
 
@@ -115,8 +115,10 @@ std::optional<Error> EditSession::writeFile(const fs::path& target, std::string_
     if (!bytes) return Error{bytes.error()};
     const std::uint64_t hash = hashBytes(bytes.value());
     const bool sameFile = target == source_.path;
+    const std::string state =
+        journal_ ? Json{{"state", stateJson(plan.value(), hash)}}.dump() : std::string();
     if (journal_ && sameFile) {
-        record({{"state", stateJson(plan.value(), hash)}});
+        record(state);
         if (std::optional<Error> error = journal_->sync()) warning_ = error;
     }
     if (!sameFile || diskBytes != bytes.value()) {
@@ -129,6 +131,10 @@ std::optional<Error> EditSession::writeFile(const fs::path& target, std::string_
     history_.seal();
     savedState_ = history_.state();
     ++version_;
+    if (journal_ && sameFile && unwritten_.empty()) {
+        // Keeps the journal short; its old form would do as well.
+        if (std::optional<Error> error = journal_->restart(hash, state)) warning_ = error;
+    }
     if (journal_ && !sameFile) {
         const fs::path place = journal_->path().parent_path() / defaultJournalPath(target).filename();
         Result<std::unique_ptr<Journal>> moved = Journal::create(place, hash);
@@ -136,7 +142,7 @@ std::optional<Error> EditSession::writeFile(const fs::path& target, std::string_
         journal_ = moved ? std::move(moved.value()) : nullptr;
         if (!moved) warning_ = Error{moved.error()};
         unwritten_.clear();
-        record({{"state", stateJson(plan.value(), hash)}});
+        record(state);
     }
     return std::nullopt;
 }
@@ -147,9 +153,9 @@ void EditSession::discardJournal() {
 }
 
 // A record that cannot be written waits, so that the journal never has a gap.
-void EditSession::record(const Json& record) {
+void EditSession::record(std::string record) {
     if (!journal_) return;
-    unwritten_.push_back(record.dump());
+    unwritten_.push_back(std::move(record));
     while (!unwritten_.empty()) {
         if (std::optional<Error> error = journal_->append(unwritten_.front())) {
             warning_ = error;

@@ -73,7 +73,7 @@ class EditSession {
     std::optional<Error> takeState(const nlohmann::json& state);
     nlohmann::json stateJson(const SavePlan& plan, std::uint64_t fileHash) const;
     std::optional<Error> openJournal(const std::filesystem::path& path, SessionOptions::Recovery recovery);
-    void record(const nlohmann::json& record);
+    void record(std::string record);
     std::optional<Error> writeFile(const std::filesystem::path& target, std::string_view diskBytes);
 
     Scene scene_;

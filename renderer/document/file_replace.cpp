@@ -16,18 +16,51 @@ namespace fs = std::filesystem;
 class Descriptor {
   public:
     explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
-    ~Descriptor() { close(); }
+    ~Descriptor() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
     Descriptor(const Descriptor&) = delete;
     Descriptor& operator=(const Descriptor&) = delete;
     int get() const { return descriptor_; }
-    bool close() {
-        const int descriptor = descriptor_;
-        descriptor_ = -1;
-        return descriptor < 0 || ::close(descriptor) == 0;
-    }
 
   private:
     int descriptor_;
+};
+
+// A new file in the folder of another, without a name while it is written where the system can do that: a
+// process that is killed then leaves nothing behind.
+class NewFile {
+  public:
+    explicit NewFile(const fs::path& beside)
+        : name_(beside.string() + ".XXXXXX"), file_(openUnnamed(beside)), isNamed_(file_.get() < 0),
+          named_(isNamed_ ? ::mkostemp(name_.data(), O_CLOEXEC) : -1) {}
+
+    int get() const { return file_.get() >= 0 ? file_.get() : named_.get(); }
+    const std::string& name() const { return name_; }
+    bool giveName() {
+        if (isNamed_) return true;
+        // A link cannot replace a file, so the free name that mkostemp finds is freed for it.
+        const Descriptor taken(::mkostemp(name_.data(), O_CLOEXEC));
+        if (taken.get() < 0) return false;
+        isNamed_ = true;
+        const std::string open = fmt::format("/proc/self/fd/{}", file_.get());
+        return ::unlink(name_.c_str()) == 0 &&
+               ::linkat(AT_FDCWD, open.c_str(), AT_FDCWD, name_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    }
+    void remove() const {
+        if (isNamed_) ::unlink(name_.c_str());
+    }
+
+  private:
+    static int openUnnamed(const fs::path& beside) {
+        const fs::path folder = beside.parent_path();
+        return ::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+    }
+
+    std::string name_;
+    Descriptor file_; // -1: this file system has no files without name
+    bool isNamed_;
+    Descriptor named_;
 };
 
 Error systemError(const fs::path& path, const char* what) {
@@ -67,12 +100,11 @@ std::optional<Error> replaceFile(const fs::path& path, std::string_view bytes,
     if (existed && !S_ISREG(old.st_mode))
         return Error{fmt::format("{}: expected a regular file to write to", path.string())};
     if (existed && ::access(target.c_str(), W_OK) != 0) return systemError(path, "write");
-    std::string name = target.string() + ".XXXXXX";
-    Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
+    NewFile file(target);
     if (file.get() < 0) return systemError(path, "create a file beside it");
     const auto giveUp = [&](const char* what) {
         const Error error = systemError(path, what);
-        ::unlink(name.c_str());
+        file.remove();
         return error;
     };
     reach(ReplaceStage::Opened);
@@ -82,9 +114,9 @@ std::optional<Error> replaceFile(const fs::path& path, std::string_view bytes,
         return giveUp("set permissions");
     if (!writeAll(file.get(), bytes)) return giveUp("write");
     reach(ReplaceStage::Written);
-    if (::fsync(file.get()) != 0 || !file.close()) return giveUp("write");
+    if (::fsync(file.get()) != 0) return giveUp("write");
     reach(ReplaceStage::Synced);
-    if (::rename(name.c_str(), target.c_str()) != 0) return giveUp("replace it");
+    if (!file.giveName() || ::rename(file.name().c_str(), target.c_str()) != 0) return giveUp("replace it");
     reach(ReplaceStage::Renamed);
     if (!syncFolder(target.parent_path())) return systemError(path, "make it durable");
     return std::nullopt;

@@ -173,6 +173,28 @@ std::optional<Error> Journal::append(std::string_view payload) {
     return std::exchange(syncError_, std::nullopt);
 }
 
+std::optional<Error> Journal::restart(std::uint64_t baseHash, std::string_view payload) {
+    const std::filesystem::path next = path_.string() + ".new";
+    const Result<int> opened = openLocked(next, O_CREAT | O_TRUNC);
+    if (!opened) return Error{opened.error()};
+    const std::string bytes = journalHead(baseHash) + journalRecord(0, payload);
+    const bool good = writeAll(opened.value(), bytes) && ::fdatasync(opened.value()) == 0 &&
+                      ::rename(next.c_str(), path_.c_str()) == 0;
+    if (!good) {
+        const Error error = systemError(path_, "write the journal");
+        ::unlink(next.c_str());
+        ::close(opened.value());
+        return error;
+    }
+    const std::lock_guard lock(mutex_);
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = opened.value();
+    bytes_ = bytes.size();
+    records_ = 1;
+    dirty_ = false;
+    return std::nullopt;
+}
+
 std::optional<Error> Journal::sync() {
     const std::lock_guard lock(mutex_);
     dirty_ = false;

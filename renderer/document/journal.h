@@ -52,6 +52,10 @@ class Journal {
     // against loss of power within kSyncDelayMs. A record that could not be written leaves no trace.
     std::optional<Error> append(std::string_view payload);
 
+    // Starts anew with one record: what came before is not needed any more. The file is replaced whole; on
+    // failure it goes on as it was.
+    std::optional<Error> restart(std::uint64_t baseHash, std::string_view payload);
+
     // Waits until everything is durable.
     std::optional<Error> sync();
 

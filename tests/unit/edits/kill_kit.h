@@ -24,6 +24,9 @@ namespace kilolux::test {
             const Edits added =
                 addLight(s.scene(), ids, LightDef{}, Trs{{double(n), 0, 0}}, std::to_string(n));
             edits.value().insert(edits.value().end(), added.begin(), added.end());
+        } else if (random() % 3 == 0 && s.scene().lights.size() > 7) {
+            const Edits gone = deleteLight(s.scene(), s.scene().lights.read().back().id);
+            edits.value().insert(edits.value().end(), gone.begin(), gone.end());
         }
         if (s.apply("set", edits.value(), random() % 2 ? "drag" : "")) _exit(3);
         if (random() % 8 == 0 && (s.undo() || s.redo())) _exit(4);

@@ -123,12 +123,22 @@ TEST_F(SessionTest, SavedStateHasNothingToRecover) {
 // The journal knows of a save before the file does.
 TEST_F(SessionTest, CrashBetweenJournalAndRename) {
     set("Sun", "intensity", 5.0);
+    const std::string before = readBytes(options_.journal);
     ASSERT_FALSE(session_->save());
-    set("Sun", "intensity", 6.0);
-    session_.reset();
-    folder_.write("scene.gltf", original_); // as if the rename had not happened
-    crash();
-    EXPECT_EQ(defOf(session_->scene(), "Sun").intensity, 6.0);
+    const std::string saved = readBytes(path_);
+    const auto after = parseJournal(readBytes(options_.journal));
+    ASSERT_TRUE(after);
+    ASSERT_EQ(after.value().records.size(), 1u) << "the state as saved, and nothing of before";
+    const std::string between = before + journalRecord(1, after.value().records[0]);
+    for (const std::string& file : {original_, saved}) {
+        session_.reset();
+        folder_.write("scene.gltf", file);
+        folder_.write("journal", between);
+        crash();
+        EXPECT_EQ(defOf(session_->scene(), "Sun").intensity, 5.0);
+        EXPECT_EQ(session_->hasUnsavedChanges(), file == original_);
+        EXPECT_EQ(text(), saved);
+    }
 }
 
 TEST_F(SessionTest, JournalOfAnotherVersionIsKeptAside) {
