@@ -178,8 +178,12 @@ int findBookmark(const Scene& scene, std::uint64_t id) {
 
 bool targetExists(const Scene& scene, EditTarget target, std::uint64_t id) {
     switch (target) {
-    case EditTarget::Light:
-        return findLight(scene, id) >= 0;
+    case EditTarget::Light: {
+        // Between two edits of a change its node may be missing; the rules refuse that at the end.
+        const int at = findLight(scene, id);
+        return at >= 0 && scene.lights[at].node >= 0 &&
+               scene.lights[at].node < static_cast<int>(scene.nodes.size());
+    }
     case EditTarget::Definition:
         return id < scene.lightDefs.size();
     case EditTarget::Node:

@@ -171,7 +171,9 @@ TEST_F(SessionTest, StrangeRecordsAreRefusedAsAWhole) {
         "{\"change\":{\"edits\":[{}]}}",
         R"({"change":{"edits":[{"on":"light","id":99,"field":"muted","from":false,"to":true}]}})",
         R"({"change":{"edits":[{"on":"node","id":0,"from":null,"to":{"parent":-5}}]}})",
-        R"({"undo":{"edits":[{"on":"light","id":1,"from":{"id":1},"to":null}]}})"};
+        R"({"undo":{"edits":[{"on":"light","id":1,"from":{"id":1},"to":null}]}})",
+        R"({"change":{"edits":[{"on":"light","id":99,"from":null,"to":{"id":99,"node":-1,"def":0}},
+            {"on":"light","id":99,"field":"name","from":"","to":"x"}]}})"};
     for (const char* record : strange) {
         std::ofstream(options_.journal, std::ios::binary | std::ios::trunc)
             << good << journalRecord(first, record);
