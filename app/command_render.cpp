@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kSettledFrames = 32;
+
 struct Arguments {
     std::string scene;
     std::string output;
@@ -23,6 +25,7 @@ struct Arguments {
     std::string dumpFolder;
     std::vector<std::string> sets;
     RenderOptions options;
+    int frames = 0; // 0: what the method wants
     bool half = false;
     bool list = false;
     bool json = false;
@@ -78,6 +81,9 @@ Problem checkArguments(Arguments& arguments) {
         return Failure{
             ExitCode::BadInput,
             fmt::format("--stats '{}' would overwrite the scene or the picture", arguments.statistics)};
+    // The stochastic picture needs some frames to settle; the others are whole from the first one on.
+    const bool stochastic = options.method.empty() || options.method == "stochastic";
+    options.frames = arguments.frames > 0 ? arguments.frames : (stochastic ? kSettledFrames : 1);
     options.keepTargets = !arguments.dumpFolder.empty();
     return std::nullopt;
 }
@@ -190,10 +196,11 @@ Command addRenderCommand(CLI::App& app) {
                      "picture to write: .png, .exr or .hdr (default: SCENE's name .png)")
         ->type_name("FILE");
     render->add_option("--size", a.size, "in pixels")->type_name("WxH")->capture_default_str();
-    render->add_option("--frames", a.options.frames, "frames to accumulate")
+    render
+        ->add_option("--frames", a.frames,
+                     fmt::format("frames to accumulate (default: {} for stochastic, else 1)", kSettledFrames))
         ->check(CLI::Range(1, 1000000).description(""))
-        ->type_name("N")
-        ->capture_default_str();
+        ->type_name("N");
     render->add_option("--seed", a.options.seed, "of the random numbers; same seed, same bytes")
         ->check(CLI::Range(std::uint32_t(0), std::numeric_limits<std::uint32_t>::max()).description(""))
         ->type_name("N")

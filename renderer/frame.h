@@ -15,7 +15,7 @@ enum class GBufferProducer { Raster, Compute };
 struct FramePlan {
     GBufferProducer producer = GBufferProducer::Raster;
     TraceBackEnd tracer = TraceBackEnd::ComputeBvh;
-    Method method = Method::AllLights;
+    Method method = Method::Stochastic;
     int view = 0; // VIEW_*
     std::uint32_t raysPerLight = 1;
     bool transparent = false; // the scene has transparent surfaces

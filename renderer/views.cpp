@@ -42,10 +42,10 @@ constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
 }};
 
 constexpr std::array<NamedChoice, 4> kMethods{{
+    {"stochastic", "about one ray per pixel to lights that earlier frames saw, then one denoiser for all"},
     {"all-lights", "every light in range of each pixel with one ray each"},
     {"split", "reference: analytic irradiance times mean visibility; converges over --frames"},
     {"true", "reference: the BRDF at sampled points of every light; converges over --frames"},
-    {"stochastic", "about one ray per pixel to lights that earlier frames saw, then one denoiser for all"},
 }};
 
 } // namespace

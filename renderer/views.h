@@ -12,7 +12,7 @@ std::span<const NamedChoice> methodChoices(); // index = Method
 
 bool isDenoiserView(int view); // shows what only the denoiser makes
 
-enum class Method { AllLights, ReferenceSplit, ReferenceTrue, Stochastic };
+enum class Method { Stochastic, AllLights, ReferenceSplit, ReferenceTrue };
 
 // Index of a name; empty text gives 0.
 std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::string_view name);

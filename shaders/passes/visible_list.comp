@@ -38,7 +38,9 @@ uvec2 carriedEntry(uvec2 texel) {
     uvec2 none = uvec2(kNone, 0u);
     if (e.slot >= frame.lightCount) return none;
     uint typeFlags = loadLightHot(e.slot).typeFlags;
-    if ((typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) != 0u) return none;
+    // A light that went out stays while its edit is fresh: pixels that meet it cap their history.
+    bool off = (typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) != 0u;
+    if (off && (typeFlags & LIGHT_FLAG_EDITED) == 0u) return none;
     e.age = min(e.age + 1u, 15u);
     if (e.age > frame.sampling.listMemory) return none;
     uint epoch = typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;

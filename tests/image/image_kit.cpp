@@ -85,6 +85,7 @@ RenderOptions smallOptions(int width, int height, const std::vector<std::string>
     RenderOptions options;
     options.width = width;
     options.height = height;
+    options.method = "all-lights";
     options.settings.jitter = false;
     options.settings.tracer = TracerChoice::Compute;
     for (const std::string& setting : settings) {
