@@ -207,7 +207,8 @@ std::optional<Error> checkValue(const EditField& field, const EditValue& value) 
 
 std::optional<Error> checkTouched(const Scene& scene, const Edit& edit) {
     std::optional<Error> error;
-    if (!targetExists(scene, edit.target, edit.id)) {
+    const bool isLight = edit.target == EditTarget::Light; // one without its node is there, and wrong
+    if (isLight ? findLight(scene, edit.id) < 0 : !targetExists(scene, edit.target, edit.id)) {
         error = checkGone(scene, edit);
     } else {
         error = checkExisting(scene, edit);
