@@ -29,6 +29,8 @@ Layout layoutOf(const gpu::Image& image) {
         return {Channel::Uint32, 1};
     case VK_FORMAT_R32G32_UINT:
         return {Channel::Uint32, 2};
+    case VK_FORMAT_R32G32B32A32_UINT:
+        return {Channel::Uint32, 4};
     case VK_FORMAT_R8G8B8A8_UNORM:
         return {Channel::Unorm8, 4};
     default:
