@@ -99,7 +99,8 @@ void main() {
     LightSelection selection = beginSelection(noise.numbers, how.choices);
     float albedo = luminance(diffuseAlbedo(receiver.surface)), f0 = luminance(specularF0(receiver.surface));
     LightWalk walk = beginWalk(visibleCount, how.freshCount, cell.count, stride, offset);
-    bool edited = false;
+    // All and edited ones of what the list says there was, and of what its lights and the fresh ones may give now.
+    vec2 listed = vec2(0.0), likely = vec2(0.0);
     uint candidates = 0u;
     for (uint sun = 0u;; ++sun) {
         bool directional = kDirectionalLights && sun < how.directionalCount;
@@ -107,7 +108,11 @@ void main() {
         uint slot = directional ? directionalSlots[sun] : walk.slot;
         if (slot >= frame.lightCount) continue; // a foreign list
         LightHot light = loadLightHot(slot);
-        edited = edited || (light.typeFlags & LIGHT_FLAG_EDITED) != 0u;
+        bool isEdited = (light.typeFlags & LIGHT_FLAG_EDITED) != 0u;
+        if (walk.maskEntry != KX_NO_LIGHT && !directional) {
+            float energy = float(texelFetch(visibleLists, int(visibleAt + walk.maskEntry)).y);
+            listed += vec2(energy, isEdited ? energy : 0.0);
+        }
         if (kDirectionalLights && !directional && lightType(light) == LIGHT_DIRECTIONAL) continue;
         float unshadowed = lightWeight(light, receiver.point, albedo, f0);
         float weight = perceptualWeight(unshadowed, frame.exposure);
@@ -116,6 +121,7 @@ void main() {
             weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));
         uint mask = walk.maskEntry != KX_NO_LIGHT && !directional ? maskOfEntry(walk.maskEntry, light) : 0u;
         uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
+        if (list != LIST_HIDDEN) likely += vec2(weight, isEdited ? weight : 0.0);
         float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
         selectionAdd(selection, makeCandidate(slot | mask << ITEM_MASK_SHIFT, list, weight, stride, how.dimThreshold,
                                               how.dimMode, dimNumber));
@@ -124,7 +130,9 @@ void main() {
 
     SelectionBudget budget = SelectionBudget(missed ? how.missHiddenShare : how.hiddenShare, how.hiddenRelaxedBelow,
                                              how.directionalShare, how.directionalFreeBelow);
-    uint flags = (edited ? SAMPLE_EDITED : 0u) | (missed ? SAMPLE_MISSED : 0u);
+    float editedShare = max(listed.y / max(listed.x, 1.0e-20), likely.y / max(likely.x, 1.0e-20));
+    uint flags = missed ? SAMPLE_MISSED : 0u;
+    if (editedShare > 0.0) flags |= SAMPLE_EDITED | uint(ceil(min(editedShare, 1.0) * 255.0)) << SAMPLE_EDITED_SHIFT;
     uint chosen = 0u;
     for (uint i = 0u; i < how.choices; ++i) {
         LightChoice choice = selectionSample(selection, budget, i);

@@ -15,7 +15,7 @@ uniform usampler2DArray rayResults;
 layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
 
-const float kEditedFrames = 4.0; // that history may hold where a light was edited
+const float kEditedFrames = 4.0; // that history may hold where all light was edited; more for a part of it
 const float kFreeFrames = 255.0;
 
 void main() {
@@ -37,7 +37,8 @@ void main() {
                 // A pixel that had no turn is all 0; one without any light has at least a point.
                 bool sampled = (texel.y | texel.z) != 0u;
                 valid = !sampled ? 0.0 : ((s.flags & SAMPLE_RECONSTRUCTED) != 0u ? 0.5 : 1.0);
-                if ((s.flags & SAMPLE_EDITED) != 0u) frames = kEditedFrames;
+                float editedShare = float(s.flags >> SAMPLE_EDITED_SHIFT) * (1.0 / 255.0);
+                if (editedShare > 0.0) frames = min(kEditedFrames / editedShare, kFreeFrames);
             }
             if (!(s.contribution > 0.0)) continue;
             float visible = 0.0;
