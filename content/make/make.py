@@ -1,13 +1,30 @@
 #!/usr/bin/python3
-"""Writes the scenes that the project ships: make.py [--out FOLDER] [scene...], all of them without names.
-Needs Python 3 and numpy. The same bytes come out of every run."""
+"""Writes the scenes that the project ships: make.py [--out FOLDER] [scene...], all of them without names. A name
+that ends in a number is its module's layout of that seed: hidden_lights_7. Needs Python 3 and numpy. The same bytes
+come out of every run."""
 import argparse
 import importlib
 import os
+import re
 import sys
 import time
 
-SCENES = ("cornell", "gallery", "night_market")
+SEEDED = "hidden_lights"
+SCENES = ("cornell", "gallery", "night_market", "half_hidden", "sun_room", "motion",
+          *(f"{SEEDED}_{seed}" for seed in range(1, 6)))
+
+
+def scene_name(text):
+    if text not in SCENES and not re.fullmatch(SEEDED + r"_\d+", text):
+        raise argparse.ArgumentTypeError(f"'{text}' is none of {', '.join(SCENES)} and no {SEEDED}_SEED")
+    return text
+
+
+def build(name):
+    seeded = re.fullmatch(f"({SEEDED})_(\\d+)", name)
+    if seeded:
+        return importlib.import_module(seeded[1]).build(int(seeded[2]))
+    return importlib.import_module(name).build()
 
 
 def main():
@@ -16,12 +33,12 @@ def main():
     sys.dont_write_bytecode = True
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", default=os.path.join(here, "..", "scenes"))
-    parser.add_argument("scene", nargs="*", choices=[[], *SCENES], help="all when none is named")
+    parser.add_argument("scene", nargs="*", type=scene_name, help="all when none is named")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
     for name in arguments.scene or SCENES:
         start = time.monotonic()
-        scene = importlib.import_module(name).build()
+        scene = build(name)
         size = scene.save(os.path.join(arguments.out, name + ".glb"))
         print(f"{name}: {size / 1e6:.2f} MB, {scene.triangle_count()} triangles, "
               f"{len(scene.lights())} lights, {len(scene.nodes)} nodes, {time.monotonic() - start:.1f} s")

@@ -7,7 +7,7 @@ import numpy as np
 from kit.material import Material
 from kit.mesh import Model
 from kit.noise import rng
-from kit.shapes import bevel_box, quad, rod
+from kit.shapes import bevel_box, block, quad, rod
 from kit.transform import rotate_x, rotate_y, translate
 
 from . import materials as M
@@ -20,14 +20,6 @@ WINDOW_Y = (0.5, 3.5)
 SKYLIGHT_M = (5.2, 2.4)
 SKYLIGHT_Y = 4.86
 COVE_Y = 3.92
-
-
-def block(model, material, x0, x1, y0, y1, z0, z1, bevel=0.004):
-    """Box by its extents; textures are laid in world metres, so that neighbours do not show the same
-    patch."""
-    mesh = bevel_box(x1 - x0, y1 - y0, z1 - z0, bevel).with_uv_offset(x0 * 0.73 + z0 * 0.41,
-                                                                      y0 * 0.37 + z0 * 0.59)
-    model.add(material, mesh, translate((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2))
 
 
 def floor():

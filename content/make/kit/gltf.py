@@ -4,6 +4,7 @@ definitions, images and identical materials are shared as well."""
 import json
 import math
 import struct
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,10 +25,22 @@ class Node:
         return self.matrix if self.parent is None else self.parent.world() @ self.matrix
 
 
+@dataclass(eq=False)
+class Channel:
+    """Keys of one property of one node. Values: translations, unit quaternions (x, y, z, w) or scales, one a key;
+    for CUBICSPLINE (tangent in, value, tangent out) a key, tangents per second."""
+    node: Node
+    path: str  # translation, rotation, scale
+    times_s: list
+    values: list
+    interpolation: str = "LINEAR"  # LINEAR, STEP, CUBICSPLINE
+
+
 class Scene:
     def __init__(self, name, exposure_ev100):
         self.name, self.exposure_ev100 = name, exposure_ev100
         self.nodes = []
+        self.animations = []  # (name, [Channel])
 
     def node(self, name, parent=None, matrix=None, model=None, light=None):
         n = Node(name, parent, np.eye(4) if matrix is None else matrix)
@@ -70,7 +83,7 @@ class _Writer:
         self.binary = bytearray()
         self.json = {"asset": {"version": "2.0", "generator": GENERATOR}, "extensionsUsed": [], "scene": 0,
                      "scenes": [], "nodes": [], "cameras": [], "meshes": [], "materials": [], "textures": [],
-                     "images": [], "samplers": [], "accessors": [], "bufferViews": [], "buffers": []}
+                     "images": [], "samplers": [], "animations": [], "accessors": [], "bufferViews": [], "buffers": []}
         self.cache = {}
         self.punctual, self.area = [], []
 
@@ -83,8 +96,9 @@ class _Writer:
         self.json["bufferViews"].append(v)
         return len(self.json["bufferViews"]) - 1
 
-    def accessor(self, array, kind, bounds=False):
-        target = 34963 if array.dtype.kind == "u" else 34962
+    def accessor(self, array, kind, bounds=False, geometry=True):
+        """Of vertices or indices; other data has no buffer target."""
+        target = (34963 if array.dtype.kind == "u" else 34962) if geometry else None
         component = {"uint16": 5123, "uint32": 5125, "float32": 5126}[array.dtype.name]
         a = {"bufferView": self.view(array.tobytes(), target), "componentType": component,
              "count": len(array), "type": kind}
@@ -211,10 +225,34 @@ class _Writer:
             self.light(node, out)
         return out
 
+    def keys(self, data, kind, bounds=False):
+        """Accessor of animation data, shared where the bytes are the same."""
+        array = np.asarray(data, "<f4").reshape(len(data), -1) + np.float32(0)
+        key = (kind, array.tobytes())
+        if key not in self.cache:
+            self.cache[key] = self.accessor(array, kind, bounds, geometry=False)
+        return self.cache[key]
+
+    def animation(self, name, channels, index):
+        out = {"name": name, "channels": [], "samplers": []}
+        for c in channels:
+            values = np.round(np.asarray(c.values, float) * 2 ** 20) / 2 ** 20
+            values = values.reshape(-1, values.shape[-1])  # a cubic key's three values follow each other
+            if c.path == "rotation" and c.interpolation != "CUBICSPLINE":
+                values /= np.linalg.norm(values, axis=1, keepdims=True)
+            times = self.keys(np.asarray(c.times_s, float)[:, None], "SCALAR", bounds=True)
+            kind = "VEC4" if c.path == "rotation" else "VEC3"
+            out["samplers"].append({"input": times, "output": self.keys(values, kind),
+                                    "interpolation": c.interpolation})
+            out["channels"].append({"sampler": len(out["samplers"]) - 1,
+                                    "target": {"node": index[c.node], "path": c.path}})
+        return out
+
     def glb(self):
         nodes, j = self.scene.nodes, self.json
         index = {n: i for i, n in enumerate(nodes)}
         j["nodes"] = [self.node(n, index) for n in nodes]
+        j["animations"] = [self.animation(name, channels, index) for name, channels in self.scene.animations]
         j["scenes"] = [{"name": self.scene.name,
                         "nodes": [i for i, n in enumerate(nodes) if n.parent is None],
                         "extras": {"kilolux": {"exposureEv100": self.scene.exposure_ev100}}}]

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from .mesh import Mesh, merge
+from .transform import align_x, translate
 
 
 def bevel_box(sx, sy, sz, bevel=0.004):
@@ -63,6 +64,14 @@ def bevel_box(sx, sy, sz, bevel=0.004):
         s = tuple(np.array(corner) * 2 - 1)
         polygon([index[(0, s)], index[(1, s)], index[(2, s)]])
     return Mesh(positions, normals, uvs, triangles)
+
+
+def block(model, material, x0, x1, y0, y1, z0, z1, bevel=0.004):
+    """Adds a box by its extents to a model; textures are laid in world metres, so that neighbours do not show
+    the same patch."""
+    mesh = bevel_box(x1 - x0, y1 - y0, z1 - z0, bevel).with_uv_offset(x0 * 0.73 + z0 * 0.41,
+                                                                      y0 * 0.37 + z0 * 0.59)
+    model.add(material, mesh, translate((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2))
 
 
 def quad(sx, sy, unit_uv=False, divisions=1):
@@ -205,7 +214,6 @@ def rod(start, end, radius, sides=8):
 
 def bar(start, end, width, height, bevel=0.003):
     """Bevelled rectangular bar between two points."""
-    from .transform import align_x
     length = float(np.linalg.norm(np.subtract(end, start)))
     return bevel_box(length, height, width, bevel).at(align_x(start, end))
 
