@@ -64,7 +64,7 @@ void Renderer::Impl::describe() {
     const BvhStats& bvh = gpuScene->bvhStats();
     statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;
     statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
-    describeFeatures(gpuScene->features(), statistics);
+    describeFeatures(used, statistics);
     describePasses(times,
                    {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples",
                     "compact_rays", "trace_samples", "visible_list", "shade_samples", "denoise_temporal",

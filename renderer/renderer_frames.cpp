@@ -131,17 +131,17 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
                        plan.view == shared::VIEW_SEEN_SHARE || index + 1 == std::uint32_t(options.frames);
     plan.writeLists = !(frozen(index) && options.settings.freezeLists);
 
-    gpu::SpecValues values = gpuScene->features();
+    used = gpuScene->features();
     if (options.allFeatures) {
         for (std::uint32_t feature = 0; feature < shared::FEATURE_COUNT; ++feature)
-            values[feature] = 1;
-        values[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
+            used[feature] = 1;
+        used[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
     }
-    values.insert(features.begin(), features.end());
+    used.insert(features.begin(), features.end());
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
     FrameContext context{commands,      *gpuScene, *targets, frameBuffer, constants,
-                         counterBuffer, *grid,     values,   lists.get(), &noise};
+                         counterBuffer, *grid,     used,     lists.get(), &noise};
     recordFrame(context, *passes, plan, world, meanFrames, float(0.25 * sceneExtentM));
     commands.submitAndWait();
 

@@ -50,6 +50,7 @@ struct Renderer::Impl {
     double sceneExtentM = 0.0; // diagonal of the bounds
     gpu::Buffer frameBuffer, counterBuffer;
     shared::FrameConstants constants{};
+    gpu::SpecValues used;     // features and choices of the last frame
     gpu::SpecValues features; // what the settings decide; the scene's own are in GpuScene
     gpu::Bindings world;
 
