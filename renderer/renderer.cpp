@@ -45,6 +45,11 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
 }
 
 void Renderer::Impl::describe() {
+    // After every frame of renderFrame(): the lists begin anew.
+    statistics.passes.clear();
+    statistics.featuresOn.clear();
+    statistics.featuresOff.clear();
+    statistics.gpuMemory.clear();
     statistics.device = device.name();
     statistics.driver = device.driver();
     statistics.timing = device.hasReliableTimestamps() ? "timestamps" : "wall";

@@ -1,0 +1,260 @@
+// The parts of bench_loop that measure pictures. They do not depend on the machine's load.
+#include "tests/bench/loop_parts.h"
+
+#include "renderer/measure/flip.h"
+#include "renderer/measure/metrics.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace kilolux::test {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kBlockPx = 16;
+constexpr double kBlockTolerance = 0.02;
+
+Picture pictureAfter(const LoopScene& scene, const Shot& shot, int frames) {
+    const std::unique_ptr<Renderer> renderer = makeRenderer(scene, shot);
+    for (int frame = 0; frame < frames; ++frame)
+        renderFrame(*renderer);
+    return renderer->picture();
+}
+
+// One row of the table: what `test` shows against what `reference` shows, and their energy. `goals`: whether
+// this is a row that must reach something.
+Json compare(const char* name, const FloatImage& reference, const FloatImage& referenceShown,
+             const measure::ImageView& test, const FloatImage& testShown, bool goals) {
+    const measure::FlipResult flip = measure::flip(viewOf(referenceShown), viewOf(testShown));
+    const measure::BlockEnergy energy =
+        measure::blockEnergy(viewOf(reference), test, kBlockPx, kBlockTolerance);
+    const bool met = flip.mean <= 0.08 && flip.percentile95 <= 0.25 && energy.withinShare >= 0.95;
+    fmt::print("  {:<26} {:>9.4f} {:>9.4f} {:>11.1f} % {:>9.4f} {:>9.3f} ({}, {})  {}\n", name, flip.mean,
+               flip.percentile95, 100.0 * energy.withinShare, energy.meanRatio, energy.worstRatio,
+               energy.worstX, energy.worstY, goals ? (met ? "met" : "missed") : "");
+    return {{"pair", name},
+            {"flipMean", flip.mean},
+            {"flipPercentile95", flip.percentile95},
+            {"blocksWithin", energy.withinShare},
+            {"energyRatio", energy.meanRatio},
+            {"worstBlock", energy.worstRatio},
+            {"worstX", energy.worstX},
+            {"worstY", energy.worstY}};
+}
+
+} // namespace
+
+Json benchQuality(const LoopOptions& options) {
+    const int frames = options.frames > 0 ? options.frames : 64;
+    Json json = Json::array();
+    for (const LoopScene& scene : openScenes(options, {"gallery", "night_market"})) {
+        Shot shot = makeShot(options, 480, 270);
+        shot.method = "split";
+        const Reference split = renderReference(options, scene, shot);
+        shot.method = "true";
+        const Reference truth = renderReference(options, scene, shot);
+        const double ev100 = split.exposureEv100;
+        const FloatImage splitShown = displayed(split.mean, ev100), truthShown = displayed(truth.mean, ev100);
+        fmt::print(
+            "  {} {}, {}x{}, {} still frames against {} of the reference; EV100 {:g}, curve neutral, {:g} "
+            "pixels per degree\n",
+            scene.name, scene.camera, shot.width, shot.height, frames, options.referenceFrames, ev100,
+            measure::kDefaultPixelsPerDegree);
+        fmt::print("  {:<26} {:>9} {:>9} {:>13} {:>9} {:>9}\n", "", "FLIP mean", "95th", "blocks 2 %",
+                   "energy", "worst block");
+        Json rows = Json::array();
+        for (const auto& [choice, name] : {std::pair(PictureChoice::Viewport, "viewport : split"),
+                                           std::pair(PictureChoice::Denoised, "denoised : split")}) {
+            Shot test = makeShot(options, 480, 270);
+            test.settings.picture = choice;
+            const Picture picture = pictureAfter(scene, test, frames);
+            rows.push_back(compare(name, split.mean, splitShown, viewOf(picture), displayed(picture), true));
+        }
+        rows.push_back(
+            compare("split : true (model)", truth.mean, truthShown, viewOf(split.mean), splitShown, false));
+        rows.push_back(compare("half : half of split", split.halves[0], displayed(split.halves[0], ev100),
+                               viewOf(split.halves[1]), displayed(split.halves[1], ev100), false));
+        json.push_back({{"scene", scene.name},
+                        {"width", shot.width},
+                        {"height", shot.height},
+                        {"frames", frames},
+                        {"referenceFrames", options.referenceFrames},
+                        {"exposureEv100", ev100},
+                        {"toneMap", "neutral"},
+                        {"pixelsPerDegree", measure::kDefaultPixelsPerDegree},
+                        {"rows", rows}});
+    }
+    fmt::print(
+        "  goal: mean 0.08, 95th percentile 0.25, 95 % of the blocks of {} x {} pixels within 2 %; the last "
+        "row is twice the reference's own noise\n",
+        kBlockPx, kBlockPx);
+    return json;
+}
+
+// --- Guiding ---------------------------------------------------------------------------------------------
+
+namespace {
+
+const std::vector<std::string> kHiddenLayouts = {"hidden_lights_1", "hidden_lights_2", "hidden_lights_3",
+                                                 "hidden_lights_4", "hidden_lights_5"};
+
+std::vector<std::string> withLayouts(std::vector<std::string> names) {
+    names.insert(names.begin(), kHiddenLayouts.begin(), kHiddenLayouts.end());
+    return names;
+}
+
+// Frames of which errors are averaged: the lists have settled.
+constexpr int kFirstFrame = 16, kLastFrame = 32;
+
+// Sums over frames [from, to) of one run.
+SquaredError errorOver(const LoopScene& scene, const Shot& shot, const Reference& reference, int from,
+                       int to) {
+    const std::unique_ptr<Renderer> renderer = makeRenderer(scene, shot);
+    SquaredError sum;
+    for (int frame = 0; frame < to; ++frame) {
+        renderFrame(*renderer);
+        if (frame >= from) sum += squaredError(reference, renderer->picture());
+    }
+    return sum;
+}
+
+// Errors are compared on one G-buffer: without jitter.
+Shot stillShot(const LoopOptions& options, PictureChoice picture) {
+    Shot shot = makeShot(options, 320, 180);
+    shot.settings.jitter = false;
+    shot.settings.picture = picture;
+    return shot;
+}
+
+Reference stillReference(const LoopOptions& options, const LoopScene& scene) {
+    Shot shot = stillShot(options, PictureChoice::Viewport);
+    shot.method = "split";
+    return renderReference(options, scene, shot);
+}
+
+bool isLayout(const std::string& name) {
+    return std::find(kHiddenLayouts.begin(), kHiddenLayouts.end(), name) != kHiddenLayouts.end();
+}
+
+} // namespace
+
+Json benchGuiding(const LoopOptions& options) {
+    const int frames = options.frames > 0 ? options.frames : kLastFrame;
+    Json rows = Json::array();
+    std::vector<double> layouts;
+    double masksHalfHidden = 0.0, worst = 0.0;
+    fmt::print(
+        "  squared error of raw frames {} to {} against 'split', on over off\n  {:<18} {:>12} {:>12} {:>14} "
+        "{:>14}\n",
+        std::min(kFirstFrame, frames - 1) + 1, frames, "", "guiding", "masks", "guiding, rel.",
+        "masks, rel.");
+    for (const LoopScene& scene :
+         openScenes(options, withLayouts({"half_hidden", "gallery", "night_market", "cornell"}))) {
+        const Reference reference = stillReference(options, scene);
+        Shot on = stillShot(options, PictureChoice::Raw), noGuiding = on, noMasks = on;
+        noGuiding.settings.guiding = false;
+        noMasks.settings.areaMasks = false;
+        const int from = std::min(kFirstFrame, frames - 1);
+        const SquaredError all = errorOver(scene, on, reference, from, frames);
+        const SquaredError unguided = errorOver(scene, noGuiding, reference, from, frames);
+        const SquaredError unmasked = errorOver(scene, noMasks, reference, from, frames);
+        const double guiding = all.absolute / unguided.absolute, masks = all.absolute / unmasked.absolute;
+        fmt::print("  {:<18} {:>12.3f} {:>12.3f} {:>14.3f} {:>14.3f}\n", scene.name, guiding, masks,
+                   all.relative / unguided.relative, all.relative / unmasked.relative);
+        if (isLayout(scene.name)) layouts.push_back(guiding);
+        if (scene.name == "half_hidden") masksHalfHidden = masks;
+        worst = std::max({worst, guiding, masks});
+        rows.push_back({{"scene", scene.name},
+                        {"guiding", guiding},
+                        {"masks", masks},
+                        {"guidingRelative", all.relative / unguided.relative},
+                        {"masksRelative", all.relative / unmasked.relative},
+                        {"squaredError", all.absolute / (frames - from)}});
+    }
+    if (!layouts.empty())
+        fmt::print("  guiding, median of {} layouts: {}\n", layouts.size(),
+                   withGoal(medianOf(layouts), Goal::AtMost, 0.5));
+    if (masksHalfHidden > 0.0)
+        fmt::print("  masks, half of a large light hidden: {}\n",
+                   withGoal(masksHalfHidden, Goal::AtMost, 0.8));
+    fmt::print("  worst of all: {}\n", withGoal(worst, Goal::AtMost, 1.05));
+    return {{"scenes", rows},
+            {"layoutsMedian", medianOf(layouts)},
+            {"masksHalfHidden", masksHalfHidden},
+            {"worst", worst}};
+}
+
+// --- Rays ------------------------------------------------------------------------------------------------
+
+Json benchRays(const LoopOptions& options) {
+    const int frames = options.frames > 0 ? options.frames : 16;
+    Json rows = Json::array();
+    fmt::print("  means over {} frames from the first; useful rays are those that met their light\n"
+               "  {:<18} {:>7} {:>9} {:>11} {:>10} {:>10} {:>10} {:>9} {:>9}\n",
+               frames, "", "lights", "in range", "candidates", "rays/px", "useful/px", "missed", "on list",
+               "no room");
+    for (const LoopScene& scene :
+         openScenes(options, withLayouts({"half_hidden", "gallery", "night_market", "cornell"}))) {
+        const std::unique_ptr<Renderer> renderer = makeRenderer(scene, makeShot(options, 320, 180));
+        for (int frame = 0; frame < frames; ++frame)
+            renderFrame(*renderer);
+        const FrameStatistics s = renderer->statistics();
+        fmt::print("  {:<18} {:>7} {:>9.1f} {:>11.2f} {:>10.3f} {:>10.3f} {:>8.2f} % {:>9.2f} {:>9.3f}\n",
+                   scene.name, s.lights, s.lightsInRangeMean, s.candidatesMean, s.raysPerPixelMean,
+                   s.usefulRaysPerPixelMean, 100.0 * s.missedShare, s.listLengthMean, s.listOverflowMean);
+        rows.push_back({{"scene", scene.name},
+                        {"lights", s.lights},
+                        {"lightsInRange", s.lightsInRangeMean},
+                        {"candidates", s.candidatesMean},
+                        {"raysPerPixel", s.raysPerPixelMean},
+                        {"usefulRaysPerPixel", s.usefulRaysPerPixelMean},
+                        {"missedShare", s.missedShare},
+                        {"listLength", s.listLengthMean},
+                        {"listOverflow", s.listOverflowMean}});
+    }
+    return rows;
+}
+
+// --- Noise -----------------------------------------------------------------------------------------------
+
+Json benchNoise(const LoopOptions& options) {
+    const int frames = options.frames > 0 ? options.frames : kLastFrame;
+    constexpr int kEarlyFrames = 4;
+    Json rows = Json::array();
+    fmt::print(
+        "  squared error of denoised frames against 'split', blue over white noise\n  {:<18} {:>14} {:>14} "
+        "{:>12}\n",
+        "", "frame 1", fmt::format("frames 1 to {}", kEarlyFrames), fmt::format("to {}", frames));
+    for (const LoopScene& scene :
+         openScenes(options, withLayouts({"half_hidden", "gallery", "night_market", "cornell"}))) {
+        const Reference reference = stillReference(options, scene);
+        std::vector<SquaredError> errors[2]; // per frame; blue, white
+        for (int noise = 0; noise < 2; ++noise) {
+            Shot shot = stillShot(options, PictureChoice::Denoised);
+            shot.settings.antiAlias = false; // its history would hide what the denoiser leaves
+            shot.settings.noise = noise == 0 ? Noise::Blue : Noise::White;
+            const std::unique_ptr<Renderer> renderer = makeRenderer(scene, shot);
+            for (int frame = 0; frame < frames; ++frame) {
+                renderFrame(*renderer);
+                errors[noise].push_back(squaredError(reference, renderer->picture()));
+            }
+        }
+        const auto ratio = [&](int from, int to) {
+            SquaredError blue, white;
+            for (int frame = from; frame < std::min(to, frames); ++frame) {
+                blue += errors[0][std::size_t(frame)];
+                white += errors[1][std::size_t(frame)];
+            }
+            return blue.absolute / white.absolute;
+        };
+        const double first = ratio(0, 1), early = ratio(0, kEarlyFrames);
+        const double late = ratio(std::min(kFirstFrame, frames - 1), frames);
+        fmt::print("  {:<18} {:>14.3f} {:>14.3f} {:>12.3f}\n", scene.name, first, early, late);
+        rows.push_back({{"scene", scene.name}, {"frame1", first}, {"early", early}, {"settled", late}});
+    }
+    return rows;
+}
+
+} // namespace kilolux::test
