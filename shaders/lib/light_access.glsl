@@ -38,13 +38,19 @@ layout(scalar) readonly buffer LightsCold {
     LightCold lightsCold[];
 };
 
-LightHot loadLightHot(uint slot) {
-    if (kLightsInUniform) return lightsHot[slot];
+// For lanes that each want a light of their own: 4 wide fetches a lane are 15 % faster than 16 scalar ones from the
+// uniform block (sample_lights on lavapipe); for one light at a time the block is.
+LightHot loadOwnLightHot(uint slot) {
     int texel = int(slot * 4u);
     uvec4 a = texelFetch(lightsHotTexels, texel), b = texelFetch(lightsHotTexels, texel + 1),
           c = texelFetch(lightsHotTexels, texel + 2), d = texelFetch(lightsHotTexels, texel + 3);
     return LightHot(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.xyz), b.w,
                     uintBitsToFloat(c.xyz), c.w, uintBitsToFloat(d.xy), uintBitsToFloat(d.zw));
+}
+
+LightHot loadLightHot(uint slot) {
+    if (kLightsInUniform) return lightsHot[slot];
+    return loadOwnLightHot(slot);
 }
 
 LightCold loadLightCold(uint slot) {

@@ -12,7 +12,6 @@
 #include "sphere.glsl"
 #include "spot.glsl"
 #include "tube.glsl"
-#include "weight.glsl"
 
 #ifndef KX_HAS_DIRECTIONAL
 #define KX_HAS_DIRECTIONAL true
@@ -32,6 +31,7 @@
 #ifndef KX_HAS_DISK
 #define KX_HAS_DISK true
 #endif
+#include "weight.glsl"
 
 // Whether the light has no extent: only lightSample can meet it.
 KX_INLINE bool lightIsDelta(LightHot light) {
@@ -102,14 +102,6 @@ KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, Lt
         return none;
     }
     return outlineIrradiance(lightOutline(light, point.positionWs, point.alpha), point, lobe, emission);
-}
-
-// About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the
-// luminance of baseColor * (1 - metallic), `f0` that of F0.
-KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0) {
-    vec3 emission = lightEvaluate(light, point.positionWs);
-    if (luminance(emission) <= 0.0) return 0.0;
-    return proxyWeight(lightProxy(light, point.positionWs), point, emission, diffuseAlbedo, f0);
 }
 
 // A point on the light for a uv in the unit square: even in area over what faces the receiver, continuous,

@@ -1,116 +1,173 @@
-// The cheap weight by which candidate lights are chosen: about the luminance of unshadowed BRDF x light,
-// without tables and edges. Never 0 for a light that contributes.
+// The cheap weight by which candidate lights are chosen: about the luminance of unshadowed BRDF x light, without
+// tables, edges and trigonometry. One formula serves all types, because the lanes of a SIMD group hold different
+// ones; the type only chooses what goes in. Never 0 for a light that contributes. How well it follows the analytic
+// irradiance is measured in tests/unit/lights/weight_test.cpp.
 #ifndef KILOLUX_LIGHTS_WEIGHT_GLSL
 #define KILOLUX_LIGHTS_WEIGHT_GLSL
-#include "irradiance.glsl"
+#include "../math/brdf.glsl"
+#include "shaping.glsl"
 
-// What a weight needs of a light's geometry.
-struct LightProxy {
-    vec3 dirWs;       // unit, towards the middle of the light as it is seen
-    float solidAngle; // about; 1/m^2 for points, 1 for delta directions
-    float sinRadius;  // of a cone about dirWs that holds the light
-    vec3 longDirWs;   // unit, square to dirWs: the way the light extends to sinRadius
-    float sinShort;   // how far it extends across
-    vec3 boundDirWs;  // axis and radius of a cone that surely holds the light
-    float boundSin;
+// A light's extent: along `longWs` and `shortWs`, which are square to each other, and for a sphere or a tube
+// halfWidthM in every direction. Directional lights are at a distance of 1.
+struct LightExtent {
+    vec3 toCenter; // from the receiver, m
+    vec3 longWs;   // unit, or 0 for what is round
+    vec3 shortWs;
+    float halfLengthM;
+    float halfWidthM;
+    float aheadM; // how far the receiver is on the side that the light looks to
+    bool round_;  // sphere, spot, directional
+    bool flat_;   // rectangle, disk
 };
 
-KX_INLINE LightProxy roundProxy(vec3 dirWs, float solidAngle, float sinRadius) {
-    LightProxy proxy;
-    proxy.dirWs = dirWs;
-    proxy.solidAngle = solidAngle;
-    proxy.sinRadius = sinRadius;
-    proxy.longDirWs = vec3(0.0);
-    proxy.sinShort = sinRadius;
-    proxy.boundDirWs = dirWs;
-    proxy.boundSin = sinRadius;
-    return proxy;
-}
-
-// A tube's light is about even over the angle that its axis fills, so its middle is the bisector.
-KX_INLINE LightProxy tubeProxy(LightHot light, vec3 toCenter) {
-    vec3 axis = lightFrame(light)[0];
-    float radius = tubeRadiusM(light);
-    vec3 toA = toCenter - axis * light.sizeM.y;
-    vec3 toB = toCenter + axis * light.sizeM.y;
-    vec3 dirA = toA * inversesqrt(max(dot(toA, toA), 1.0e-12));
-    vec3 dirB = toB * inversesqrt(max(dot(toB, toB), 1.0e-12));
-    vec3 foot = toCenter - axis * dot(toCenter, axis);
-    float fromAxis = max(length(foot), radius);
-    float nearest = clamp(-dot(toCenter, axis), -light.sizeM.y, light.sizeM.y);
-    vec3 toNearest = toCenter + axis * nearest;
-    float nearest2 = max(dot(toNearest, toNearest), radius * radius);
-    float halfAngle = 0.5 * angleFromCosSin(dot(dirA, dirB), length(cross(dirA, dirB)));
-    vec3 middle = dirA + dirB;
-    middle = dot(middle, middle) > 1.0e-6 ? normalize(middle) : foot / fromAxis;
-    LightProxy proxy;
-    proxy.dirWs = middle;
-    proxy.solidAngle = 4.0 * radius * halfAngle / fromAxis + KX_PI * radius * radius / nearest2;
-    proxy.sinRadius = min(sin(min(halfAngle, KX_HALF_PI)) + 1.1 * radius * inversesqrt(nearest2), 1.0);
-    vec3 along = axis - middle * dot(axis, middle);
-    proxy.longDirWs = along * inversesqrt(max(dot(along, along), 1.0e-12));
-    proxy.sinShort = radius * inversesqrt(nearest2);
-    float invDistance = inversesqrt(max(dot(toCenter, toCenter), 1.0e-12));
-    proxy.boundDirWs = toCenter * invDistance;
-    proxy.boundSin = min((light.sizeM.y + radius) * invDistance, 1.0);
-    return proxy;
-}
-
-KX_INLINE LightProxy lightProxy(LightHot light, vec3 receiverWs) {
+KX_INLINE LightExtent lightExtent(LightHot light, vec3 receiverWs) {
     uint type = lightType(light);
-    if (type == LIGHT_DIRECTIONAL) {
-        float sin2 = directionalSin2(light);
-        bool delta = directionalIsDelta(light);
-        return roundProxy(-light.dirWs, delta ? 1.0 : KX_PI * sin2, delta ? 0.0 : sqrt(sin2));
-    }
-    vec3 toCenter = light.positionWs - receiverWs;
-    if (type == LIGHT_TUBE) return tubeProxy(light, toCenter);
-    float distance2 = max(dot(toCenter, toCenter), 1.0e-12);
-    float invDistance = inversesqrt(distance2);
-    vec3 dir = toCenter * invDistance;
-    if (type == LIGHT_SPHERE || type == LIGHT_SPOT) {
-        float sine = min(light.sizeM.x * invDistance, 1.0);
-        bool point = sphereIsPoint(light);
-        return roundProxy(dir, point ? 1.0 / distance2 : KX_PI * sine * sine, point ? 0.0 : sine);
-    }
-    bool rect = type == LIGHT_RECT;
-    float area = rect ? rectAreaM2(light) : diskAreaM2(light);
-    float extent = rect ? length(light.sizeM) : light.sizeM.x;
-    float facing = max(-dot(light.dirWs, dir), 1.0e-4); // lightEvaluate has sorted out the side behind
-    float solidAngle = area * facing / (distance2 + area * KX_INV_PI);
-    LightProxy proxy = roundProxy(dir, solidAngle, min(extent * invDistance, 1.0));
-    if (rect) {
-        mat3 frame = lightFrame(light);
-        bool wide = light.sizeM.x > light.sizeM.y;
-        vec3 along = wide ? frame[0] : frame[1];
-        along = along - dir * dot(along, dir);
-        proxy.longDirWs = along * inversesqrt(max(dot(along, along), 1.0e-12));
-        proxy.sinShort = min(min(light.sizeM.x, light.sizeM.y) * invDistance, 1.0);
-    }
-    return proxy;
+    bool directional = KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL;
+    bool rect = KX_HAS_RECT && type == LIGHT_RECT;
+    bool disk = KX_HAS_DISK && type == LIGHT_DISK;
+    bool tube = KX_HAS_TUBE && type == LIGHT_TUBE;
+    LightExtent e;
+    e.toCenter = directional ? -light.dirWs : light.positionWs - receiverWs;
+    e.aheadM = -dot(light.dirWs, e.toCenter);
+    e.round_ = !rect && !disk && !tube;
+    e.flat_ = rect || disk;
+    vec3 tangent = vec3(0.0);
+    if (rect || tube) tangent = unpackOct16(light.tangentOct);
+    // A disk has no axes of its own: one is taken towards the receiver.
+    vec3 aside = e.toCenter + light.dirWs * e.aheadM;
+    if (disk) tangent = aside * inversesqrt(max(dot(aside, aside), 1.0e-20));
+    bool turned = rect && light.sizeM.y > light.sizeM.x;
+    vec3 bitangent = cross(light.dirWs, tangent);
+    e.longWs = turned ? bitangent : tangent;
+    e.shortWs = turned ? tangent : bitangent;
+    if (!e.flat_) e.shortWs = vec3(0.0);
+    float radius = light.sizeM.x;
+    if (directional) radius *= inversesqrt(1.0 + radius * radius);
+    if (tube) radius = max(radius, 1.0e-4);
+    e.halfLengthM = rect ? max(light.sizeM.x, light.sizeM.y) : (tube ? light.sizeM.y : (disk ? radius : 0.0));
+    e.halfWidthM = rect ? min(light.sizeM.x, light.sizeM.y) : radius;
+    return e;
 }
 
-// `emission` is lightEvaluate() at the point; `diffuseAlbedo` and `f0` are the surface's luminances.
-KX_INLINE float proxyWeight(LightProxy proxy, ShadingPoint point, vec3 emission, float diffuseAlbedo,
-                            float f0) {
-    float cosine = dot(point.normalWs, proxy.dirWs);
-    if (dot(point.normalWs, proxy.boundDirWs) + proxy.boundSin <= 0.0) return 0.0;
-    vec2 cut = horizonCut(cosine, proxy.sinRadius);
-    float visible = proxy.solidAngle * max(cut.x, 1.0e-4);
-    float diffuse = max(cut.y, 1.0e-5);
+// How far the light reaches from its centre along a unit direction and against it, at least.
+KX_INLINE float extentAlong(LightExtent e, vec3 dirWs) {
+    float across = e.flat_ ? abs(dot(e.shortWs, dirWs)) : 1.0;
+    return e.halfLengthM * abs(dot(e.longWs, dirWs)) + e.halfWidthM * across;
+}
+
+// Whether a part of the light may be below the horizon of a receiver. There its points are drawn again until one is
+// above, which fits uniform points only.
+KX_INLINE bool lightDipsBelow(LightHot light, ShadingPoint point) {
+    LightExtent e = lightExtent(light, point.positionWs);
+    float slackM = 1.0e-3 * (e.halfLengthM + e.halfWidthM); // tangents are rounded
+    return dot(point.normalWs, e.toCenter) < extentAlong(e, point.normalWs) + slackM;
+}
+
+// The light as the receiver sees it.
+struct LightView {
+    vec3 dirWs;       // unit, about towards the middle of what is seen
+    float solidAngle; // over the emitting area (tube: its side view); 1/m^2; round lights: 1 / distance^2
+    float sinLong;    // of half the angle along the long axis
+    float sinShort;   // and across
+};
+
+// Twice the sine of half the angle that from .. to fills at a distance: the angle itself for narrow ones, 2 for one
+// that fills the half plane. `widthM` is asked for because to - from has no digits left of a narrow one.
+KX_INLINE float seenWidth(float from, float to, float widthM, float distanceM, float invFrom, float invTo) {
+    float cosine = min((from * to + distanceM * distanceM) * invFrom * invTo, 1.0);
+    float sine = widthM * distanceM * invFrom * invTo;
+    return sqrt(cosine > 0.0 ? sine * sine / (0.5 + 0.5 * cosine) : 2.0 - 2.0 * cosine);
+}
+
+// A flat light fills two angles, one along each axis, each seen from the distance that is left where the light is
+// nearest along the other. With the cosine at that nearest point, their product is the solid angle for small
+// lights and about right for one that fills half of the sky, however near the receiver is to its plane or to its
+// edges. A tube is as wide a strip that faces the receiver, and a sphere at the nearest point of its axis.
+KX_INLINE LightView lightView(LightExtent e) {
+    LightView view;
+    float distance2 = max(dot(e.toCenter, e.toCenter), 1.0e-12);
+    float invDistance = inversesqrt(distance2);
+    view.dirWs = e.toCenter * invDistance;
+    view.solidAngle = 1.0 / max(distance2, e.halfWidthM * e.halfWidthM);
+    view.sinLong = 0.0;
+    view.sinShort = min(e.halfWidthM * invDistance, 1.0);
+    if (e.round_) return view;
+    float a = e.halfLengthM, b = e.halfWidthM;
+    float x = dot(e.toCenter, e.longWs), y = dot(e.toCenter, e.shortWs);
+    float height2 = e.flat_ ? e.aheadM * e.aheadM : max(distance2 - x * x, b * b);
+    height2 = max(height2, 1.0e-14);
+    float besideX = max(abs(x) - a, 0.0), besideY = max(abs(y) - b, 0.0);
+    float fromX2 = height2 + besideY * besideY, fromY2 = height2 + besideX * besideX;
+    float fromX = sqrt(fromX2), fromY = sqrt(fromY2);
+    float x0 = x - a, x1 = x + a, y0 = y - b, y1 = y + b;
+    float invX0 = inversesqrt(x0 * x0 + fromX2), invX1 = inversesqrt(x1 * x1 + fromX2);
+    float invY0 = inversesqrt(y0 * y0 + fromY2), invY1 = inversesqrt(y1 * y1 + fromY2);
+    float widthX = seenWidth(x0, x1, 2.0 * a, fromX, invX0, invX1);
+    float widthY = seenWidth(y0, y1, 2.0 * b, fromY, invY0, invY1);
+    float nearest2 = fromX2 + besideX * besideX;
+    float cosines = sqrt(height2 * nearest2) / (fromX * fromY);
+    view.solidAngle = widthX * widthY * (1.0 + 0.143 * widthX * widthY) * cosines;
+    float areaM2 = 4.0 * a * b;
+    float endM2 = e.flat_ ? 0.0 : KX_PI * b * b;
+    view.solidAngle = (view.solidAngle + endM2 / nearest2) / max(areaM2 + endM2, KX_MIN_AREA_M2);
+    // The middle of each angle.
+    float middleX = (x0 * invX0 + x1 * invX1) / (invX0 + invX1);
+    float middleY = (y0 * invY0 + y1 * invY1) / (invY0 + invY1);
+    vec3 dir = e.toCenter + e.longWs * (middleX - x) + e.shortWs * (middleY - y);
+    view.dirWs = dir * inversesqrt(max(dot(dir, dir), 1.0e-20));
+    view.sinLong = 0.5 * widthX;
+    view.sinShort = 0.5 * widthY;
+    return view;
+}
+
+// About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the luminance
+// of baseColor * (1 - metallic), `f0` that of F0.
+KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0) {
+    float intensity = luminance(light.intensity);
+    LightExtent e = lightExtent(light, point.positionWs);
+    // Limits are a little wide, and what is left of them above 0, so that rounding loses no light.
+    float distance2 = max(dot(e.toCenter, e.toCenter), 1.0e-12);
+    float ratio2 = lightType(light) == LIGHT_DIRECTIONAL ? 0.0 : distance2 * light.invRange * light.invRange;
+    float above = dot(point.normalWs, e.toCenter) + 1.001 * (e.halfLengthM + e.halfWidthM);
+    bool dark = intensity <= 0.0 || !lightIsOn(light) || ratio2 > 1.00001 || above < 0.0;
+    if (dark || (e.flat_ && e.aheadM <= 0.0)) return 0.0;
+    intensity *= max(1.0 - ratio2 * ratio2, 1.0e-6);
+    if (KX_HAS_SPOT && lightType(light) == LIGHT_SPOT) {
+        float cone = e.aheadM * inversesqrt(distance2) * light.shaping.x + light.shaping.y;
+        if (cone < -1.0e-4) return 0.0;
+        intensity *= square(clamp(cone, 1.0e-4, 1.0));
+    }
+    LightView view = lightView(e);
+
+    // Cosine over what is above the horizon: a parabola where the light is cut by it.
+    float cosine = dot(point.normalWs, view.dirWs);
+    float sine = view.sinLong * abs(dot(e.longWs, point.normalWs)) + view.sinShort;
+    float cut = clamp(cosine + sine, 0.0, 2.0 * sine);
+    float diffuse = max(cosine - sine, 0.0) + 0.25 * cut * cut / max(sine, 1.0e-6) + 1.0e-5 + 1.0e-3 * sine;
+
     // The lobe sees the light's point nearest to the mirror direction, and is as wide as both together.
     vec3 mirrorDir = point.normalWs * (2.0 * dot(point.normalWs, point.viewDirWs)) - point.viewDirWs;
-    vec3 aside = mirrorDir - proxy.dirWs * dot(mirrorDir, proxy.dirWs);
-    float along = dot(aside, proxy.longDirWs);
-    vec3 across = aside - proxy.longDirWs * along;
-    float acrossLength = max(length(across), 1.0e-6);
-    vec3 lightDir = proxy.dirWs + proxy.longDirWs * clamp(along, -proxy.sinRadius, proxy.sinRadius) +
-                    across * (min(proxy.sinShort, acrossLength) / acrossLength);
-    lightDir = normalize(lightDir + point.normalWs * max(1.0e-3 - dot(point.normalWs, lightDir), 0.0));
-    float wide = min(point.alpha + 0.25 * (proxy.sinRadius + proxy.sinShort), 1.0);
-    vec2 lobe = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, lightDir, wide);
-    float specular = lobe.x * mix(f0, 1.0, lobe.y);
-    return luminance(emission) * visible * (diffuseAlbedo * KX_INV_PI * diffuse + specular);
+    vec3 aside = mirrorDir - view.dirWs * dot(mirrorDir, view.dirWs);
+    float along = dot(aside, e.longWs);
+    vec3 across = aside - e.longWs * along;
+    float nearer = min(view.sinShort * inversesqrt(max(dot(across, across), 1.0e-12)), 1.0);
+    vec3 toLobe = view.dirWs + e.longWs * clamp(along, -view.sinLong, view.sinLong) + across * nearer;
+    toLobe = toLobe * inversesqrt(max(dot(toLobe, toLobe), 1.0e-12));
+    float noL = dot(point.normalWs, toLobe);
+    vec3 halfSum = toLobe + point.viewDirWs;
+    float invHalf2 = 1.0 / max(dot(halfSum, halfSum), 1.0e-12);
+    float noH = dot(point.normalWs, halfSum);
+    float awry = saturate(1.0 - dot(toLobe, halfSum) * sqrt(invHalf2)); // from Schlick's Fresnel term
+    float wide = min(point.alpha + 0.25 * (view.sinLong + view.sinShort), 1.0);
+    float a2 = wide * wide;
+    float d = 1.0 - noH * noH * invHalf2 * (1.0 - a2);
+    float facing = max(noL, 1.0e-3);
+    // Smith's visibility as Hammon approximates it ("PBR Diffuse Lighting for GGX+Smith Microsurfaces", 2017),
+    // with D and the cosine of the light.
+    float lobe = a2 * facing * (0.5 * KX_INV_PI) /
+                 max(d * d * mix(2.0 * facing * point.noV, facing + point.noV, wide), 1.0e-20);
+    float specular = lobe * mix(f0, 1.0, square(awry * awry) * awry);
+    return intensity * view.solidAngle * (diffuseAlbedo * KX_INV_PI * diffuse + specular);
 }
 
 #endif

@@ -50,17 +50,9 @@ uint fetchCellLight(uint at) {
 const uint ITEM_MASK_SHIFT = 16u;
 
 // The mask that an entry gives a light: none where it is not to be trusted.
-uint maskOfEntry(uint at, LightHot light) {
-    VisibleEntry entry = unpackEntry(texelFetch(visibleLists, int(visibleAt + at)).x);
+uint maskOfEntry(VisibleEntry entry, LightHot light) {
     bool current = entry.epoch == (light.typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK);
     return current && frame.sampling.areaMasks != 0u ? entry.recent | entry.older : 0u;
-}
-
-// Whether a part of the light may be below the receiver's horizon. There the points are drawn again until one is
-// above, which fits uniform points only.
-bool dipsBelow(LightHot light, ShadingPoint point) {
-    LightProxy proxy = lightProxy(light, point.positionWs);
-    return dot(point.normalWs, proxy.boundDirWs) < proxy.boundSin;
 }
 
 void main() {
@@ -107,11 +99,14 @@ void main() {
         if (!directional && !nextLight(walk)) break;
         uint slot = directional ? directionalSlots[sun] : walk.slot;
         if (slot >= frame.lightCount) continue; // a foreign list
-        LightHot light = loadLightHot(slot);
+        LightHot light = loadOwnLightHot(slot);
         bool isEdited = (light.typeFlags & LIGHT_FLAG_EDITED) != 0u;
+        uint mask = 0u;
         if (walk.maskEntry != KX_NO_LIGHT && !directional) {
-            float energy = float(texelFetch(visibleLists, int(visibleAt + walk.maskEntry)).y);
+            uvec2 entry = texelFetch(visibleLists, int(visibleAt + walk.maskEntry)).xy;
+            float energy = float(entry.y);
             listed += vec2(energy, isEdited ? energy : 0.0);
+            mask = maskOfEntry(unpackEntry(entry.x), light);
         }
         if (kDirectionalLights && !directional && lightType(light) == LIGHT_DIRECTIONAL) continue;
         float unshadowed = lightWeight(light, receiver.point, albedo, f0);
@@ -119,7 +114,6 @@ void main() {
         // What is nothing here may be something at a neighbour that takes this pixel's choice.
         if (atHalf && lightReaches(light, receiver.point.positionWs))
             weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));
-        uint mask = walk.maskEntry != KX_NO_LIGHT && !directional ? maskOfEntry(walk.maskEntry, light) : 0u;
         uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
         if (list != LIST_HIDDEN) likely += vec2(weight, isEdited ? weight : 0.0);
         float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
@@ -140,9 +134,9 @@ void main() {
         if (choice.item != KX_NO_ITEM) {
             s.slot = choice.item & SAMPLE_SLOT_MASK;
             s.list = choice.list;
-            LightHot light = loadLightHot(s.slot);
+            LightHot light = loadOwnLightHot(s.slot);
             uint mask = choice.item >> ITEM_MASK_SHIFT & 15u;
-            if (mask == 15u || dipsBelow(light, receiver.point)) mask = 0u;
+            if (mask == 15u || lightDipsBelow(light, receiver.point)) mask = 0u;
             MaskedPoint point = areaMaskWarp(rotatedPoint(noise.point, i, how.choices), mask, how.maskHiddenShare);
             s.uv = point.uv;
             s.contribution = choice.contribution / (point.pdf * float(how.rays));

@@ -53,7 +53,7 @@ void main() {
             if (!first || visible <= 0.0) continue;
             if (!lobeMade) lobe = makeLtcLobe(receiver.point);
             lobeMade = true;
-            LightIrradiance lit = lightIrradiance(loadLightHot(s.slot), receiver.point, lobe);
+            LightIrradiance lit = lightIrradiance(loadOwnLightHot(s.slot), receiver.point, lobe);
             vec3 emission = lit.emission * (frame.exposure * visible);
             diffuse += emission * (lit.diffuse * KX_INV_PI);
             specular += emission * (f0 * lit.specular.x + vec3(lit.specular.y));

@@ -23,7 +23,7 @@ void main() {
     uint result = RAY_NONE;
     if (chosen.contribution > 0.0) {
         Receiver receiver = loadReceiver(pixel);
-        LightHot light = loadLightHot(chosen.slot);
+        LightHot light = loadOwnLightHot(chosen.slot);
         uint seed = hashCombine(pixelSeed(pixel, frame.sampling.noiseFrame, frame.seed), 128u + layer);
         LightSample s;
         bool usable = false;

@@ -139,52 +139,19 @@ TEST_P(Robustness, SamplesAndHitsStaySound) {
     }
 }
 
-double correlation(const std::vector<dvec2>& pairs) {
-    dvec2 mean(0.0);
-    for (const dvec2& p : pairs)
-        mean += p / static_cast<double>(pairs.size());
-    double xy = 0.0;
-    dvec2 xx(0.0);
-    for (const dvec2& p : pairs) {
-        xy += (p.x - mean.x) * (p.y - mean.y);
-        xx += (p - mean) * (p - mean);
-    }
-    return xy / std::sqrt(xx.x * xx.y);
-}
-
-// Never 0 for a light that contributes; printed: how well it follows the true luminance.
+// Never 0 for a light that contributes.
 TEST_P(Robustness, WeightIsPositiveWhereverLightArrives) {
     Random random{std::mt19937(55 + GetParam())};
-    std::vector<dvec2> logs;
     for (int i = 0; i < 20000; ++i) {
-        const bool hard = i % 2 == 0;
-        Case c = hardCase(random, GetParam());
-        if (!hard) {
-            const Configuration easy = randomConfiguration(random, GetParam());
-            c = {hotRecord(easy.emitter, {3.0f, 2.0f, 1.0f}), glm::vec3(0.0f), glm::vec3(easy.surface.normal),
-                 glm::vec3(easy.surface.view), static_cast<float>(easy.surface.roughness)};
-        }
+        const Case c = hardCase(random, GetParam());
         const f32::ShadingPoint point = f32::makeShadingPoint(c.receiver, c.normal, c.view, c.roughness);
         const f32::LightIrradiance lit = f32::lightIrradiance(c.light, point, f32::makeLtcLobe(point));
-        const bool metal = i % 4 < 2;
-        const float albedo = metal ? 0.0f : 0.5f;
-        const float f0 = metal ? 0.8f : 0.04f;
-        const double truth = f32::luminance(lit.emission) *
-                             (albedo / kPi * lit.diffuse + f0 * lit.specular.x + lit.specular.y);
-        const double weight = f32::lightWeight(c.light, point, albedo, f0);
+        const float weight = f32::lightWeight(c.light, point, i % 2 ? 0.5f : 0.0f, i % 2 ? 0.04f : 0.8f);
         ASSERT_TRUE(sound(weight)) << describe(c);
-        if (truth > 0.0) {
-            ASSERT_GT(weight, 0.0) << truth << ": " << describe(c);
+        if (f32::luminance(lit.emission) * (lit.diffuse + lit.specular.x + lit.specular.y) > 0.0f) {
+            ASSERT_GT(weight, 0.0) << describe(c);
         }
-        if (!hard && truth > 1e-12) logs.push_back(glm::log2(dvec2(truth, weight)));
     }
-    double meanError = 0.0;
-    for (const dvec2& p : logs)
-        meanError += std::abs(p.x - p.y) / static_cast<double>(logs.size());
-    std::printf(
-        "%-12s weight: correlation of log2 with the true luminance %.4f, mean difference %.3f stops\n",
-        kTypeNames[GetParam()], correlation(logs), meanError);
-    EXPECT_GT(correlation(logs), 0.9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, Robustness, testing::ValuesIn(kAllTypes),
