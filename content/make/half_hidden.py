@@ -1,5 +1,6 @@
-"""A showroom with four huge rectangle lights and nothing else that shines: each is half covered, by a sliding screen,
-a low wall, a cupboard or a drawn blind. What an area mask learns here is which half of a light to sample."""
+"""A showroom with four huge rectangle lights and nothing else that shines: each is half covered, by a sliding
+screen, a low wall, a cupboard or a drawn blind. What an area mask learns here is which half of a light to
+sample."""
 import math
 
 from kit.gltf import Scene
@@ -57,7 +58,8 @@ def place_lights(scene, fixtures):
     cupboard = Model("cupboard")
     F.box(cupboard, WALNUT, RIGHT.width_m / 2 + 0.1, 2.86, 0.34, 0, 0, 0, 0, 0.008)
     for k in (-1, 1):
-        F.box(cupboard, WALNUT, RIGHT.width_m / 4 + 0.03, 2.74, 0.02, k * (RIGHT.width_m / 8 + 0.022), 0.06, 0.178)
+        F.box(cupboard, WALNUT, RIGHT.width_m / 4 + 0.03, 2.74, 0.02, k * (RIGHT.width_m / 8 + 0.022), 0.06,
+              0.178)
     scene.node("cupboard", None, translate(WIDTH - face, 0, 3.0) @ rotate_y(-math.pi / 2) @
                translate(-RIGHT.width_m / 4 - 0.05, 0, 0.36), cupboard)
     down = rotate_x(math.pi / 2)
@@ -79,8 +81,10 @@ def furnish(scene):
     crate, column = F.crate(oak), F.column(M.PORCELAIN, HEIGHT, 0.17)
     drum = F.drum(F.painted("blue enamel", (0.03, 0.10, 0.24), 0.2))
     for model, x, z, turn in ((F.table(oak, 1), 3.4, 3.7, 0.12), (F.bench(oak), 5.6, 6.1, 0.5),
-                              (F.ornament(M.BRASS, 1), 5.6, 3.3, 0.3), (F.ornament(M.PORCELAIN, 2), 2.0, 5.6, 1.1),
-                              (F.pile(crate, 0.6, 3), 6.6, 0.9, -0.08), (drum, 4.9, 0.72, 0.0), (drum, 5.45, 0.62, 1.0),
+                              (F.ornament(M.BRASS, 1), 5.6, 3.3, 0.3),
+                              (F.ornament(M.PORCELAIN, 2), 2.0, 5.6, 1.1),
+                              (F.pile(crate, 0.6, 3), 6.6, 0.9, -0.08), (drum, 4.9, 0.72, 0.0),
+                              (drum, 5.45, 0.62, 1.0),
                               (crate, 3.3, 6.3, 0.5), (column, 4.75, 1.7, 0.0), (column, 7.1, 5.6, 0.0)):
         scene.node(model.name, group, translate(x, 0, z) @ rotate_y(turn), model)
 

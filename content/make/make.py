@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes the scenes that the project ships: make.py [--out FOLDER] [scene...], all of them without names. A name
-that ends in a number is its module's layout of that seed: hidden_lights_7. Needs Python 3 and numpy. The same bytes
-come out of every run."""
+"""Writes the scenes that the project ships: make.py [--out FOLDER] [scene...], all of them without names. A
+name that ends in a number is its module's layout of that seed: hidden_lights_7. Needs Python 3 and numpy. The
+same bytes come out of every run."""
 import argparse
 import importlib
 import os

@@ -1,5 +1,5 @@
-"""A closed house in low sun. Indoors (`wide`) a few lamps, and not a ray of the sun, whose unshadowed light would be
-far above theirs; outdoors (`outside`) the sun lights the yard and its pergola."""
+"""A closed house in low sun. Indoors (`wide`) a few lamps, and not a ray of the sun, whose unshadowed light
+would be far above theirs; outdoors (`outside`) the sun lights the yard and its pergola."""
 import math
 
 import numpy as np
@@ -30,7 +30,8 @@ WALL_TUBE = Light("wall tube", "tube", 2300.0, "lumen", temperature_k=4600.0, ra
                   length_m=1.2, ray_end_bias_m=0.03)
 SPOT = Light("reading spot", "spot", 1500.0, "lumen", temperature_k=4300.0, range_m=8.0, radius_m=0.035,
              inner_rad=0.25, outer_rad=0.6, ray_end_bias_m=0.06)
-PANEL = Light("ceiling panel", "rect", 3600.0, "lumen", temperature_k=5200.0, range_m=9.0, width_m=1.2, height_m=0.3,
+PANEL = Light("ceiling panel", "rect", 3600.0, "lumen", temperature_k=5200.0, range_m=9.0, width_m=1.2,
+              height_m=0.3,
               ray_end_bias_m=0.02)
 PORCH = Light("porch globe", "sphere", 2000.0, "lumen", temperature_k=3600.0, range_m=12.0, radius_m=0.12,
               ray_end_bias_m=0.03)
@@ -67,8 +68,8 @@ def house(scene):
 
 
 def yard(scene):
-    """Ground, pergola with beams that stripe it with shadow, a garden wall, things that stand about, the sky behind the
-    house."""
+    """Ground, pergola with beams that stripe it with shadow, a garden wall, things that stand about, the sky
+    behind the house."""
     group = scene.node("yard")
     ground = Model("ground")
     block(ground, M.polished_concrete(0.26, 0.5, 71), -16, 24, GROUND_Y - 0.3, GROUND_Y, -14, 20)
@@ -88,12 +89,14 @@ def yard(scene):
     oak = M.timber("oak", (0.42, 0.29, 0.16), 0.5, 43)
     drum = F.drum(F.painted("ochre enamel", (0.46, 0.25, 0.04), 0.26))
     for model, x, z, turn in ((F.table(oak, 4), 5.3, 7.6, 0.1), (F.bench(oak), 5.2, 8.45, 0.05),
-                              (F.pile(F.crate(oak), 0.6, 5), 0.2, 7.0, 0.3), (drum, 8.5, 6.6, 0.0), (drum, 9.1, 6.9, 0.6),
+                              (F.pile(F.crate(oak), 0.6, 5), 0.2, 7.0, 0.3), (drum, 8.5, 6.6, 0.0),
+                              (drum, 9.1, 6.9, 0.6),
                               (F.ornament(M.PORCELAIN, 3), 1.0, 9.2, 0.4)):
         scene.node(model.name, group, translate(x, GROUND_Y, z) @ rotate_y(turn), model)
     size = 64
     y = np.linspace(1, 0, size)[:, None, None] * np.ones((1, 4, 1))
-    colors = np.array([0.55, 0.42, 0.30]) * np.exp(-y * 5) + np.array([0.16, 0.30, 0.55]) * smoothstep(-0.3, 1.0, y)
+    low, high = np.array([0.55, 0.42, 0.30]), np.array([0.16, 0.30, 0.55])
+    colors = low * np.exp(-y * 5) + high * smoothstep(-0.3, 1.0, y)
     sky = Material("sky", (0, 0, 0), 1.0, emission_nit=(260.0,) * 3, emission_map=np.clip(colors, 0, 1))
     card = Model("sky").add(sky, quad(70, 24, unit_uv=True))
     scene.node("sky behind the house", group, translate(4, 11.6, -13.5), card)
@@ -104,11 +107,14 @@ def indoors(scene, fixtures):
     group = scene.node("furniture")
     oak = M.timber("oak inside", (0.40, 0.27, 0.15), 0.45, 47)
     table = F.table(oak, 6)
-    paints = (M.CARDBOARD, F.painted("slate box", (0.10, 0.12, 0.15), 0.5), F.painted("rust box", (0.36, 0.12, 0.05), 0.6))
-    for model, x, z, turn in ((table, 3.3, 2.3, 0.1), (F.rack(7, paints), 5.6, 0.42, 0.0), (F.bench(oak), 3.2, 3.35, 0.05),
+    paints = (M.CARDBOARD, F.painted("slate box", (0.10, 0.12, 0.15), 0.5),
+              F.painted("rust box", (0.36, 0.12, 0.05), 0.6))
+    for model, x, z, turn in ((table, 3.3, 2.3, 0.1), (F.rack(7, paints), 5.6, 0.42, 0.0),
+                              (F.bench(oak), 3.2, 3.35, 0.05),
                               (F.ornament(M.BRASS, 4), 1.0, 1.3, 0.5), (F.crate(oak), 6.3, 3.2, 0.4),
                               (F.drum(F.painted("red enamel", (0.34, 0.03, 0.02), 0.22)), 6.6, 1.5, 0.0),
-                              (F.cabinet(F.painted("cabinet grey", (0.20, 0.22, 0.23), 0.38)), 2.3, 0.56, 0.0)):
+                              (F.cabinet(F.painted("cabinet grey", (0.20, 0.22, 0.23), 0.38)), 2.3, 0.56,
+                               0.0)):
         scene.node(model.name, group, translate(x, 0, z) @ rotate_y(turn), model)
     fixtures.ceiling(TABLE_LAMP, 3.3, 2.3, HEIGHT, 1.15)
     fixtures.ceiling(PANEL, 5.6, 2.2, HEIGHT, 0.056, 0.0)

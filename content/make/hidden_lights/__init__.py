@@ -1,6 +1,6 @@
-"""Seeded interiors with strong hidden lights, for measuring how well sampling learns what is visible: about half of
-the lights, 10 to 50 times as strong as the others, are in sealed rooms and closed cabinets; two large rectangles
-stand half behind screens. `hidden_lights_N` is the layout of seed N."""
+"""Seeded interiors with strong hidden lights, for measuring how well sampling learns what is visible: about
+half of the lights, 10 to 50 times as strong as the others, are in sealed rooms and closed cabinets; two large
+rectangles stand half behind screens. `hidden_lights_N` is the layout of seed N."""
 import math
 
 from kit.gltf import Scene
@@ -40,10 +40,13 @@ def camera_corner(building):
 
 
 def solid_spans(building, eye):
-    """(axis, face, lo, hi, inward) of the hall's wall faces without openings, far sides of the camera first."""
+    """(axis, face, lo, hi, inward) of the hall's wall faces without openings, far sides of the camera
+    first."""
     hall, out = building.hall, []
-    for axis, at, inward, lo, hi in (("x", hall.z0, 1, hall.x0, hall.x1), ("x", hall.z1, -1, hall.x0, hall.x1),
-                                     ("z", hall.x0, 1, hall.z0, hall.z1), ("z", hall.x1, -1, hall.z0, hall.z1)):
+    for axis, at, inward, lo, hi in (("x", hall.z0, 1, hall.x0, hall.x1),
+                                     ("x", hall.z1, -1, hall.x0, hall.x1),
+                                     ("z", hall.x0, 1, hall.z0, hall.z1),
+                                     ("z", hall.x1, -1, hall.z0, hall.z1)):
         outer = at in (0.0, building.width, building.depth)
         cuts = sorted((x if axis == "x" else z, width / 2 + 0.15) for x, z, width in hall.doorways
                       if abs((z if axis == "x" else x) - at) < 1e-6)
@@ -68,7 +71,8 @@ def place_panels(r, furnisher, room, fixtures, eye):
         light = Light("half hidden panel" if count == 0 else f"half hidden panel {count + 1}", "rect",
                       round(r.uniform(130, 190), 1), "nit", temperature_k=float(r.choice((3500, 5000, 6500))),
                       width_m=width, height_m=1.5, range_m=14.0, ray_end_bias_m=0.02)
-        screen = furniture.screen(furniture.painted("screen cloth", (0.30, 0.28, 0.25), 0.9), round(width * 0.5, 2),
+        screen = furniture.screen(furniture.painted("screen cloth", (0.30, 0.28, 0.25), 0.9),
+                                  round(width * 0.5, 2),
                                   2.25)
         furnish.half_hidden_panel(r, furnisher, room, fixtures, light, screen, span, s)
         count += 1
@@ -88,7 +92,8 @@ def build(seed):
         shell.add_wall(walls, wall, building.height)
     scene.node("walls", base, model=walls)
 
-    timber = M.timber(color=((0.42, 0.29, 0.16), (0.30, 0.17, 0.09), (0.46, 0.36, 0.24))[seed % 3], seed=40 + seed)
+    timber = M.timber(color=((0.42, 0.29, 0.16), (0.30, 0.17, 0.09), (0.46, 0.36, 0.24))[seed % 3],
+                      seed=40 + seed)
     column = (M.PORCELAIN, accent, M.PLASTER)[seed % 3]
     furnisher = furnish.Furnisher(r, scene, building, timber, column)
     fixtures = Fixtures(scene, scene.node("lights"))
@@ -96,7 +101,8 @@ def build(seed):
     eye, target = camera_corner(building)
     hall = building.hall
     toward = math.atan2(target[2] - eye[2], target[0] - eye[0])
-    view = [(eye[0] + d * math.cos(toward), eye[2] + d * math.sin(toward), s) for d, s in ((0, 1.5), (1.3, 0.9), (2.4, 0.5))]
+    view = [(eye[0] + d * math.cos(toward), eye[2] + d * math.sin(toward), s)
+            for d, s in ((0, 1.5), (1.3, 0.9), (2.4, 0.5))]
     visible = lights.place_visible(r, building, fixtures)
     cabinets = 0
     for cell in building.open_cells():

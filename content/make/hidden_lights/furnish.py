@@ -10,9 +10,12 @@ from sets import materials as M
 from . import lights
 from .plan import shared_edge
 
-DRUM_PAINTS = (F.painted("blue enamel", (0.03, 0.10, 0.24), 0.22), F.painted("red enamel", (0.34, 0.03, 0.02), 0.22),
-               F.painted("ochre enamel", (0.46, 0.25, 0.04), 0.26), F.painted("green enamel", (0.04, 0.16, 0.09), 0.22))
-BOX_PAINTS = (M.CARDBOARD, F.painted("white box", (0.62, 0.60, 0.56), 0.6), F.painted("slate box", (0.10, 0.12, 0.15), 0.5),
+DRUM_PAINTS = (F.painted("blue enamel", (0.03, 0.10, 0.24), 0.22),
+               F.painted("red enamel", (0.34, 0.03, 0.02), 0.22),
+               F.painted("ochre enamel", (0.46, 0.25, 0.04), 0.26),
+               F.painted("green enamel", (0.04, 0.16, 0.09), 0.22))
+BOX_PAINTS = (M.CARDBOARD, F.painted("white box", (0.62, 0.60, 0.56), 0.6),
+              F.painted("slate box", (0.10, 0.12, 0.15), 0.5),
               F.painted("rust box", (0.36, 0.12, 0.05), 0.6))
 
 
@@ -80,7 +83,8 @@ class Furnisher:
         c, r = room.cell, self.r
         along_x = c.x1 - c.x0 > c.z1 - c.z0
         round_shape = r.random() < 0.5
-        model = self.shared("column", lambda: F.column(self.column_material, self.plan.height, 0.19, round_shape))
+        model = self.shared("column", lambda: F.column(self.column_material, self.plan.height, 0.19,
+                                                       round_shape))
         share = r.choice((0.34, 0.66))
         for k in range(count):
             s = (k + 0.5) / count
@@ -109,7 +113,8 @@ class Furnisher:
             for k in range(int(r.integers(1, 4))):
                 paint = self.drum_paints[int(r.integers(0, 2))]
                 a = turn + 2 * math.pi * k / 3
-                self.put(self.shared(paint, lambda p=paint: F.drum(p)), x + 0.33 * math.cos(a), z + 0.33 * math.sin(a),
+                self.put(self.shared(paint, lambda p=paint: F.drum(p)), x + 0.33 * math.cos(a),
+                         z + 0.33 * math.sin(a),
                          a)
             return
         crate = self.shared("crate", lambda: F.crate(self.timber))
@@ -127,8 +132,8 @@ class Furnisher:
             (self.wall_piece if kind in ("rack", "bench") else self.floor_piece)(room, kind, start + k)
 
     def cabinets(self, room, count, fixtures, kinds, first, eye):
-        """Closed cabinets against the walls, with a strong light inside each, away from the camera; how many found
-        room."""
+        """Closed cabinets against the walls, with a strong light inside each, away from the camera; how many
+        found room."""
         placed = 0
         free = Room(self.r, room.cell, [*room.circles, (eye[0], eye[2], 2.6)])
         model = self.shared("cabinet", lambda: F.cabinet(F.painted("cabinet grey", (0.20, 0.22, 0.23), 0.38)))
@@ -158,7 +163,8 @@ class Furnisher:
                 mx, mz = open_cell.centre()
                 facing = ((0.0 if mz > at else math.pi) if axis == "x" else
                           (math.pi / 2 if mx > at else -math.pi / 2))
-                self.scene.node("door", self.group, translate(x, 0, z) @ rotate_y(facing) @ translate(0, 0, 0.075),
+                self.scene.node("door", self.group,
+                                translate(x, 0, z) @ rotate_y(facing) @ translate(0, 0, 0.075),
                                 model)
                 open_cell.doorways.append((x, z, 1.0))
 

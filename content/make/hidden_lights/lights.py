@@ -26,7 +26,8 @@ def definition(r, kind, factor=1.0, tint=(1.0, 1.0, 1.0), size=1.0, label=""):
         return Light(name, kind, lumen, "lumen", radius_m=0.019, length_m=round(1.15 * size, 3),
                      ray_end_bias_m=0.03, **common)
     if kind == "sphere":
-        return Light(name, kind, lumen, "lumen", radius_m=round(0.11 * size, 3), ray_end_bias_m=0.03, **common)
+        return Light(name, kind, lumen, "lumen", radius_m=round(0.11 * size, 3), ray_end_bias_m=0.03,
+                     **common)
     if kind == "spot":
         outer = r.uniform(26, 44)
         return Light(name, kind, lumen, "lumen", radius_m=round(0.04 * size, 3), inner_rad=0.5 * outer * DEG,
@@ -46,7 +47,8 @@ def place_visible(r, plan, fixtures):
     """Ceiling fixtures over the open cells, all five types in turn. Rectangles, disks and spots look down,
     globes and tubes hang lower and light the ceiling too."""
     tints = ((1.0, 1.0, 1.0), (1.0, 0.80, 0.58), (0.66, 0.83, 1.0))
-    kinds = [definition(r, k, 1.0, tints[int(r.integers(0, 3)) if k in ("sphere", "tube") else 0]) for k in TYPES]
+    kinds = [definition(r, k, 1.0, tints[int(r.integers(0, 3)) if k in ("sphere", "tube") else 0])
+             for k in TYPES]
     order = [kinds[i] for i in r.permutation(len(kinds))]
     count = 0
     for cell in plan.open_cells():
@@ -55,16 +57,19 @@ def place_visible(r, plan, fixtures):
         for x, z in _grid(cell, pitch, 0.5):
             light = order[count % len(order)]
             count += 1
-            drop = {"sphere": round(r.uniform(0.55, 0.95), 1), "tube": 0.5, "rect": float(r.choice((0.056, 0.35))),
+            drop = {"sphere": round(r.uniform(0.55, 0.95), 1), "tube": 0.5,
+                    "rect": float(r.choice((0.056, 0.35))),
                     "disk": 0.05, "spot": 0.14}[light.type]
             target = (x + r.uniform(-1.2, 1.2), 0.0, z + r.uniform(-1.2, 1.2))
-            fixtures.ceiling(light, x + r.uniform(-0.15, 0.15), z + r.uniform(-0.15, 0.15), plan.height, drop, turn,
+            fixtures.ceiling(light, x + r.uniform(-0.15, 0.15), z + r.uniform(-0.15, 0.15), plan.height, drop,
+                             turn,
                              target)
     return count
 
 
 def strong_kinds(r):
-    """Two definitions of each type, larger than a visible one and, with the spread of both, 10 to 50 times as strong."""
+    """Two definitions of each type, larger than a visible one and, with the spread of both, 10 to 50 times as
+    strong."""
     return {k: [definition(r, k, r.uniform(12, 20), size=1.25, label="strong"),
                 definition(r, k, r.uniform(25, 45), size=1.6, label="fierce")] for k in TYPES}
 

@@ -1,5 +1,5 @@
-"""A floor plan from a seed: a rectangle cut in two again and again, one cut of some seeds being a corridor; the
-largest cell is the hall. Openings join about half of the cells to the hall, the others are sealed."""
+"""A floor plan from a seed: a rectangle cut in two again and again, one cut of some seeds being a corridor;
+the largest cell is the hall. Openings join about half of the cells to the hall, the others are sealed."""
 from dataclasses import dataclass, field
 
 from sets.shell import DOOR_HEIGHT_M, Wall, outer_walls
@@ -141,7 +141,8 @@ def make(r, accent):
         sealed = [c for c in plan.sealed_cells() if shared_edge(c, plan.hall)]
         hall = plan.hall
         slim = min(hall.x1 - hall.x0, hall.z1 - hall.z0)
-        if 6 <= len(plan.cells) <= 12 and len(sealed) >= 2 and len(hall.doorways) >= 1 and slim > 5.2 and hall.area() > 36:
+        roomy = slim > 5.2 and hall.area() > 36
+        if roomy and 6 <= len(plan.cells) <= 12 and len(sealed) >= 2 and hall.doorways:
             break
     for wall in plan.walls[4:]:
         if r.random() < 0.35:

@@ -27,8 +27,8 @@ class Node:
 
 @dataclass(eq=False)
 class Channel:
-    """Keys of one property of one node. Values: translations, unit quaternions (x, y, z, w) or scales, one a key;
-    for CUBICSPLINE (tangent in, value, tangent out) a key, tangents per second."""
+    """Keys of one property of one node. Values: translations, unit quaternions (x, y, z, w) or scales, one a
+    key; for CUBICSPLINE (tangent in, value, tangent out) a key, tangents per second."""
     node: Node
     path: str  # translation, rotation, scale
     times_s: list
@@ -83,7 +83,8 @@ class _Writer:
         self.binary = bytearray()
         self.json = {"asset": {"version": "2.0", "generator": GENERATOR}, "extensionsUsed": [], "scene": 0,
                      "scenes": [], "nodes": [], "cameras": [], "meshes": [], "materials": [], "textures": [],
-                     "images": [], "samplers": [], "animations": [], "accessors": [], "bufferViews": [], "buffers": []}
+                     "images": [], "samplers": [], "animations": [], "accessors": [], "bufferViews": [],
+                     "buffers": []}
         self.cache = {}
         self.punctual, self.area = [], []
 

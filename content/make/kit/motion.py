@@ -1,4 +1,5 @@
-"""Keys for glTF animations: closed paths through points, turns, steps (glTF 2.0, sections 3.11 and Appendix C)."""
+"""Keys for glTF animations: closed paths through points, turns, steps (glTF 2.0, sections 3.11 and Appendix
+C)."""
 import numpy as np
 
 from .gltf import Channel
@@ -6,8 +7,8 @@ from .transform import to_trs
 
 
 def smooth_keys(times_s, points, closed=True):
-    """Cubic keys whose tangents are the slopes between neighbours (Catmull-Rom); a closed path's last point is its
-    first."""
+    """Cubic keys whose tangents are the slopes between neighbours (Catmull-Rom); a closed path's last point
+    is its first."""
     t, p = np.asarray(times_s, float), np.asarray(points, float)
     slope = np.zeros_like(p)
     slope[1:-1] = (p[2:] - p[:-2]) / (t[2:] - t[:-2])[:, None]
@@ -28,5 +29,6 @@ def turn(node, times_s, matrices, interpolation="LINEAR"):
     for m in matrices:
         q = to_trs(m)[1]
         quaternions.append(-q if quaternions and np.dot(q, quaternions[-1]) < 0 else q)
-    values = smooth_keys(times_s, quaternions, closed=False) if interpolation == "CUBICSPLINE" else quaternions
-    return Channel(node, "rotation", times_s, values, interpolation)
+    if interpolation == "CUBICSPLINE":
+        quaternions = smooth_keys(times_s, quaternions, closed=False)
+    return Channel(node, "rotation", times_s, quaternions, interpolation)

@@ -21,7 +21,8 @@ def panel(light):
     model = Model(light.name)
     model.add(M.BLACK_METAL, bevel_box(light.width_m + 0.03, light.height_m + 0.03, 0.05, 0.004),
               translate(0, 0, 0.031))
-    return model.add(glow(light), quad(light.width_m, light.height_m), translate(0, 0, 0.002) @ rotate_y(math.pi))
+    return model.add(glow(light), quad(light.width_m, light.height_m),
+                     translate(0, 0, 0.002) @ rotate_y(math.pi))
 
 
 def tube(light):
@@ -30,14 +31,16 @@ def tube(light):
     side = rotate_z(math.pi / 2)
     model.add(glow(light), lathe([(r * 0.98, -half), (r * 0.98, half)], 10), side)
     for s in (-1, 1):
-        model.add(M.STEEL, cylinder(r * 1.2, 0.03, 10, 0.003), translate(s * (half + 0.015) + 0.015, 0, 0) @ side)
+        model.add(M.STEEL, cylinder(r * 1.2, 0.03, 10, 0.003),
+                  translate(s * (half + 0.015) + 0.015, 0, 0) @ side)
     return model
 
 
 def globe(light):
     model, r = Model(light.name), light.radius_m
     model.add(glow(light), sphere(r, 14, 8))
-    return model.add(M.BRASS, lathe([(0, r * 0.92), (r * 0.33, r * 0.92), (r * 0.36, r * 1.12), (0.01, r * 1.3),
+    return model.add(M.BRASS, lathe([(0, r * 0.92), (r * 0.33, r * 0.92), (r * 0.36, r * 1.12),
+                                     (0.01, r * 1.3),
                                      (0, r * 1.3)], 10))
 
 
@@ -93,7 +96,8 @@ class Fixtures:
         if light.type in ("sphere", "tube"):
             inner = 0.0 if light.type == "sphere" else light.length_m * 0.38
             for s in ((0,) if inner == 0 else (-1, 1)):
-                self.stem(x + s * inner * math.cos(turn_rad), y, z - s * inner * math.sin(turn_rad), drop + 0.02)
+                self.stem(x + s * inner * math.cos(turn_rad), y, z - s * inner * math.sin(turn_rad),
+                          drop + 0.02)
             return self.place(light, translate(x, y, z) @ rotate_y(turn_rad))
         if light.type == "spot":
             head = look_at((x, y, z), target if target is not None else (x + 0.01, 0.0, z), up=(0, 0, 1))
@@ -104,5 +108,6 @@ class Fixtures:
         if drop > 0.08:
             for s in (-1, 1):
                 reach = s * 0.3 * light.width_m
-                self.stem(x + reach * math.cos(turn_rad), y + 0.05, z - reach * math.sin(turn_rad), drop - 0.03)
+                self.stem(x + reach * math.cos(turn_rad), y + 0.05, z - reach * math.sin(turn_rad),
+                          drop - 0.03)
         return self.place(light, translate(x, y, z) @ rotate_y(turn_rad) @ rotate_x(-math.pi / 2))

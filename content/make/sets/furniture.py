@@ -1,5 +1,5 @@
-"""Furniture of stores and workshops: crates, drums, racks, tables, columns, screens, cabinets. Models stand on
-y = 0 about the origin; wide sides face +Z."""
+"""Furniture of stores and workshops: crates, drums, racks, tables, columns, screens, cabinets. Models stand
+on y = 0 about the origin; wide sides face +Z."""
 import math
 
 from kit.material import Material
@@ -40,7 +40,8 @@ def pile(crate_model, size, seed):
 def drum(paint):
     model, r, h = Model("drum " + paint.name), 0.28, 0.86
     profile = [(0, 0), (r - 0.01, 0), (r, 0.012), (r, 0.28), (r + 0.012, 0.29), (r, 0.30), (r, 0.57),
-               (r + 0.012, 0.58), (r, 0.59), (r, h - 0.012), (r - 0.01, h), (r - 0.02, h - 0.015), (0, h - 0.015)]
+               (r + 0.012, 0.58), (r, 0.59), (r, h - 0.012), (r - 0.01, h), (r - 0.02, h - 0.015),
+               (0, h - 0.015)]
     return model.add(paint, lathe(profile, 14, 60))
 
 
@@ -49,7 +50,8 @@ def rack(seed, paints, width=1.8, height=2.0, depth=0.45):
     model, r = Model(f"rack {seed}"), rng(seed)
     for sx in (-1, 1):
         for sz in (-1, 1):
-            box(model, M.BLACK_METAL, 0.04, height, 0.04, sx * (width / 2 - 0.02), 0, sz * (depth / 2 - 0.02), 0,
+            box(model, M.BLACK_METAL, 0.04, height, 0.04, sx * (width / 2 - 0.02), 0, sz * (depth / 2 - 0.02),
+                0,
                 0.003)
     for level in (0.12, 0.72, 1.32, height - 0.06):
         box(model, M.STEEL, width - 0.02, 0.03, depth - 0.02, 0, level, 0, 0, 0.003)
@@ -69,7 +71,8 @@ def table(timber, seed, length=1.6, depth=0.75):
     box(model, timber, length, 0.04, depth, 0, 0.71, 0, 0, 0.006)
     for sx in (-1, 1):
         for sz in (-1, 1):
-            box(model, M.BLACK_METAL, 0.05, 0.71, 0.05, sx * (length / 2 - 0.08), 0, sz * (depth / 2 - 0.08), 0,
+            box(model, M.BLACK_METAL, 0.05, 0.71, 0.05, sx * (length / 2 - 0.08), 0, sz * (depth / 2 - 0.08),
+                0,
                 0.004)
     bowl = [(0, 0), (0.05, 0), (0.12, 0.04), (0.16, 0.10), (0.15, 0.10), (0.11, 0.045), (0, 0.012)]
     model.add(M.PORCELAIN, lathe(bowl, 14, 50), translate(r.uniform(-0.5, -0.2), 0.75, r.uniform(-0.1, 0.15)))
@@ -122,14 +125,16 @@ def cabinet(paint, width=1.0, height=1.9, depth=0.7):
     box(model, paint, width, height - 0.05, depth, 0, 0.05, 0, 0, 0.006)
     box(model, M.SKIRTING, width - 0.06, 0.06, depth - 0.06, 0, 0, 0, 0, 0.003)
     for s in (-1, 1):
-        box(model, paint, width / 2 - 0.02, height - 0.12, 0.02, s * width / 4, 0.085, depth / 2 + 0.008, 0, 0.005)
+        box(model, paint, width / 2 - 0.02, height - 0.12, 0.02, s * width / 4, 0.085, depth / 2 + 0.008, 0,
+            0.005)
         model.add(M.STEEL, rod((s * 0.05, height * 0.45, depth / 2 + 0.04),
                                (s * 0.05, height * 0.55, depth / 2 + 0.04), 0.008, 6))
     return model
 
 
 def door(paint):
-    """Closed leaf in a frame, mounted on a wall behind it (facing +Z): a mock for the eye, the wall is whole."""
+    """Closed leaf in a frame, mounted on a wall behind it (facing +Z): a mock for the eye, the wall is
+    whole."""
     model = Model("door")
     box(model, M.BLACK_METAL, 1.06, 2.13, 0.05, 0, -0.005, 0.015, 0, 0.004)
     box(model, paint, 0.94, 2.06, 0.04, 0, 0.01, 0.03, 0, 0.006)

@@ -44,7 +44,8 @@ def tiles(color=(0.42, 0.40, 0.36), roughness=0.16, seed=31, count=4, tile_m=1.6
     tone = rng(seed).uniform(0.85, 1.12, (count, count))[v.astype(int), u.astype(int)]
     value = np.where(joint, 0.55, tone)
     return Material("tiles", (1, 1, 1), color_map=_steps(tinted(value, color)),
-                    roughness_map=_steps(np.where(joint, 0.8, roughness + 0.1 * (tone - 0.85))), tile_m=tile_m)
+                    roughness_map=_steps(np.where(joint, 0.8, roughness + 0.1 * (tone - 0.85))),
+                    tile_m=tile_m)
 
 
 def timber(name="timber", color=(0.42, 0.29, 0.16), roughness=0.6, seed=41):
