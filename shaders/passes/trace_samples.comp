@@ -31,7 +31,8 @@ void main() {
         for (int draw = 0; draw < kMaxDraws && !usable; ++draw) {
             s = lightSample(light, receiver.point.positionWs, uv);
             usable = s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0;
-            if (!s.valid) break; // from behind, all points are
+            // From behind or inside all points are invalid; of a tube seen along its axis only some are.
+            if (!s.valid && lightType(light) != LIGHT_TUBE) break;
             uv = whiteNoise2(seed, uint(draw));
         }
         if (usable) {
