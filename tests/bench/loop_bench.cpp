@@ -70,7 +70,6 @@ bool runPart(const Part& part, const LoopOptions& options, Json& json) {
     const double loadBefore = loadAverage();
     const auto start = std::chrono::steady_clock::now();
     fmt::print("\n{}: {}\n", part.name, part.help);
-    std::fflush(stdout);
     bool done = true;
     Json result;
     try {
@@ -84,7 +83,6 @@ bool runPart(const Part& part, const LoopOptions& options, Json& json) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fmt::print("  {:.0f} s, load average {:.1f}{}\n", seconds, load,
                load > 1.0 ? ": a busy machine, times mean nothing but by their ratios" : "");
-    std::fflush(stdout);
     result["seconds"] = seconds;
     result["loadAverage"] = load;
     json["parts"][part.name] = result;
@@ -92,10 +90,11 @@ bool runPart(const Part& part, const LoopOptions& options, Json& json) {
 }
 
 int run(int argc, char** argv) {
+    std::setvbuf(stdout, nullptr, _IOLBF, 1 << 12); // rows of long parts are seen as they come
     CLI::App app{"Measures stochastic direct lighting"};
     LoopOptions options;
     std::vector<std::string> wanted, settings;
-    std::string json, size, references;
+    std::string json, size, references, pictures;
     std::string help = "parts, or 'all':";
     for (const Part& part : kParts)
         help += fmt::format("\n  {}: {}", part.name, part.help);
@@ -110,9 +109,11 @@ int run(int argc, char** argv) {
         ->check(CLI::Range(2, 65536));
     app.add_option("--references", references,
                    "folder that keeps references for later runs; stale once shaders change");
+    app.add_option("--pictures", pictures, "folder for the pictures that 'quality' compares, linear");
     app.add_option("--set", settings, "a setting, key=value")->allow_extra_args(false);
     CLI11_PARSE(app, argc, argv);
     options.references = references;
+    options.pictures = pictures;
     if (!size.empty() && (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
                           options.width < 8 || options.height < 8)) {
         fmt::print(stderr, "--size '{}': expected WIDTHxHEIGHT, each at least 8\n", size);

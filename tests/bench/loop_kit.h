@@ -17,6 +17,7 @@ struct LoopOptions {
     int frames = 0; // 0: the part's own number
     int referenceFrames = 64;
     std::filesystem::path references; // folder that keeps them; empty: they are rendered anew
+    std::filesystem::path pictures;   // folder for what 'quality' compares; empty: it is not kept
     Settings settings;
 };
 

@@ -23,6 +23,15 @@ Picture pictureAfter(const LoopScene& scene, const Shot& shot, int frames) {
     return renderer->picture();
 }
 
+void keepPicture(const LoopOptions& options, const std::string& name, int width, int height,
+                 const std::vector<float>& rgb) {
+    if (options.pictures.empty()) return;
+    std::filesystem::create_directories(options.pictures);
+    const std::optional<Error> error =
+        writeExr(options.pictures / (name + ".exr"), {width, height, 3, rgb}, ExrDepth::Float);
+    if (error) throw std::runtime_error(error->message);
+}
+
 // One row of the table: what `test` shows against what `reference` shows, and their energy. `goals`: whether
 // this is a row that must reach something.
 Json compare(const char* name, const FloatImage& reference, const FloatImage& referenceShown,
@@ -56,6 +65,8 @@ Json benchQuality(const LoopOptions& options) {
         shot.method = "true";
         const Reference truth = renderReference(options, scene, shot);
         const double ev100 = split.exposureEv100;
+        keepPicture(options, scene.name + "-split", shot.width, shot.height, split.mean.pixels);
+        keepPicture(options, scene.name + "-true", shot.width, shot.height, truth.mean.pixels);
         const FloatImage splitShown = displayed(split.mean, ev100), truthShown = displayed(truth.mean, ev100);
         fmt::print(
             "  {} {}, {}x{}, {} still frames against {} of the reference; EV100 {:g}, curve neutral, {:g} "
@@ -70,6 +81,8 @@ Json benchQuality(const LoopOptions& options) {
             Shot test = makeShot(options, 480, 270);
             test.settings.picture = choice;
             const Picture picture = pictureAfter(scene, test, frames);
+            keepPicture(options, fmt::format("{}-{}", scene.name, std::string_view(name).substr(0, 8)),
+                        test.width, test.height, picture.rgb);
             rows.push_back(compare(name, split.mean, splitShown, viewOf(picture), displayed(picture), true));
         }
         rows.push_back(
