@@ -46,6 +46,7 @@ RenderOptions smallOptions(int frames) {
     options.height = 22;
     options.frames = frames;
     options.keepTargets = true;
+    options.method = "all-lights";
     options.settings.exposureEv100 = {.automatic = false, .value = 5.0};
     return options;
 }
