@@ -199,6 +199,11 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     const std::optional<int> method = indexOfChoice(methodChoices(), options.method);
     if (!view) return Error{fmt::format("no view '{}'", options.view)};
     if (!method) return Error{fmt::format("no method '{}'", options.method)};
+    if (isStochasticView(*view) && Method(*method) != Method::Stochastic) {
+        return Error{fmt::format("view '{}' shows the stochastic method; method '{}' has no such thing",
+                                 viewChoices()[std::size_t(*view)].name,
+                                 methodChoices()[std::size_t(*method)].name)};
+    }
     plan.producer = chooseProducer(options.settings, device, gpuScene->triangles(),
                                    std::size_t(options.width) * std::size_t(options.height));
     plan.method = Method(*method);

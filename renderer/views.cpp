@@ -34,11 +34,12 @@ constexpr std::array<NamedChoice, shared::VIEW_COUNT> kViews{{
     {"list-age", "stochastic: mean frames since the listed lights were last seen, 0 to 15"},
     {"reprojection", "stochastic: red: not found in the previous frame; green: no neighbour fitted at half "
                      "resolution; blue: a light was just edited"},
-    {"history-length", "frames of diffuse light that the denoiser holds, 0 to 32"},
-    {"deviation", "standard deviation of diffuse light over the frames, of its mean, 0 to 4"},
-    {"rejected-history", "history that the denoiser cut: red none was found, green diffuse, blue specular"},
-    {"denoised-diffuse", "diffuse light after the denoiser, nit / pi"},
-    {"denoised-specular", "specular light after the denoiser, nit"},
+    {"history-length", "stochastic: frames of diffuse light that the denoiser holds, 0 to 32"},
+    {"deviation", "stochastic: standard deviation of diffuse light over the frames, of its mean, 0 to 4"},
+    {"rejected-history",
+     "stochastic: history that the denoiser cut: red none was found, green diffuse, blue specular"},
+    {"denoised-diffuse", "stochastic: diffuse light after the denoiser, nit / pi"},
+    {"denoised-specular", "stochastic: specular light after the denoiser, nit"},
 }};
 
 constexpr std::array<NamedChoice, 4> kMethods{{
@@ -64,6 +65,10 @@ std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::stri
         if (choices[i].name == name) return int(i);
     }
     return std::nullopt;
+}
+
+bool isStochasticView(int view) {
+    return viewChoices()[std::size_t(view)].help.starts_with("stochastic:");
 }
 
 bool isDenoiserView(int view) {

@@ -14,6 +14,9 @@ bool isDenoiserView(int view); // shows what only the denoiser makes
 
 enum class Method { Stochastic, AllLights, ReferenceSplit, ReferenceTrue };
 
+// Views of what only the stochastic method makes; their help begins with "stochastic:".
+bool isStochasticView(int view);
+
 // Index of a name; empty text gives 0.
 std::optional<int> indexOfChoice(std::span<const NamedChoice> choices, std::string_view name);
 
