@@ -14,6 +14,7 @@ FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
     if (plan.stochastic()) {
         sampleLights = std::make_unique<SampleLightsPass>(resources, plan.choices);
         if (plan.halfSampling) upsampleSamples = std::make_unique<UpsampleSamplesPass>(resources);
+        if (plan.compactRays) compactRays = std::make_unique<CompactRaysPass>(resources);
         traceSamples = std::make_unique<TraceSamplesPass>(resources, plan.tracer);
         visibleList = std::make_unique<VisibleListPass>(resources);
         shadeSamples = std::make_unique<ShadeSamplesPass>(resources);
@@ -73,7 +74,10 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
     if (plan.stochastic()) {
         passes.sampleLights->record(frame);
         if (passes.upsampleSamples) passes.upsampleSamples->record(frame);
-        passes.traceSamples->record(frame, world);
+        for (std::uint32_t layer = 0; layer < frame.constants.sampling.rays; ++layer) {
+            if (passes.compactRays) passes.compactRays->record(frame, layer);
+            passes.traceSamples->record(frame, world, layer);
+        }
         if (plan.writeLists) passes.visibleList->record(frame);
         passes.shadeSamples->record(frame);
         if (plan.countLights) passes.countLights->record(frame);

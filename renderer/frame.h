@@ -21,6 +21,7 @@ struct FramePlan {
     bool transparent = false; // the scene has transparent surfaces
     bool halfSampling = false;
     std::uint32_t choices = 1; // samples of one evaluation of the candidate lights
+    bool compactRays = false;  // trace and shade in the order of lights
     bool writeLists = true;    // false: frozen
     bool countLights = true;   // lights in range are counted, for statistics or a view
     // What becomes of noisy light. Methods that are references by themselves only average.
@@ -44,6 +45,7 @@ struct FramePasses {
     std::unique_ptr<LightAllPass> lightAll;
     std::unique_ptr<SampleLightsPass> sampleLights;
     std::unique_ptr<UpsampleSamplesPass> upsampleSamples;
+    std::unique_ptr<CompactRaysPass> compactRays;
     std::unique_ptr<TraceSamplesPass> traceSamples;
     std::unique_ptr<VisibleListPass> visibleList;
     std::unique_ptr<ShadeSamplesPass> shadeSamples;

@@ -140,8 +140,9 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     used.insert(features.begin(), features.end());
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
-    FrameContext context{commands,      *gpuScene, *targets, frameBuffer, constants,
-                         counterBuffer, *grid,     used,     lists.get(), &noise};
+    if (rayList) commands.fillBuffer(rayList->heads, 0);
+    FrameContext context{commands, *gpuScene, *targets,    frameBuffer, constants,    counterBuffer,
+                         *grid,    used,      lists.get(), &noise,      rayList.get()};
     recordFrame(context, *passes, plan, world, meanFrames, float(0.25 * sceneExtentM));
     commands.submitAndWait();
 

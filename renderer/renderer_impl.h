@@ -45,6 +45,7 @@ struct Renderer::Impl {
     std::unique_ptr<FramePasses> passes;
     std::unique_ptr<LightGrid> grid;
     std::unique_ptr<VisibleLists> lists;
+    std::unique_ptr<RayList> rayList;
     gpu::Image noise; // only of the stochastic method
     GridUse gridUse;
     double sceneExtentM = 0.0; // diagonal of the bounds

@@ -210,6 +210,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     plan.view = *view;
     plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
     plan.halfSampling = plan.stochastic() && options.settings.sampling != Sampling::Full;
+    plan.compactRays = plan.stochastic() && options.settings.compactRays;
     plan.transparent = !gpuScene->transparentDraws().empty();
 
     features.clear();
@@ -224,6 +225,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
     features[shared::CHOICE_HALF_SAMPLING] = std::uint32_t(options.settings.sampling);
     features[shared::CHOICE_DEMODULATED] = plan.stochastic();
+    features[shared::CHOICE_COMPACT_RAYS] = plan.compactRays;
     features[shared::CHOICE_LANES] = device.subgroupSize();
     plan.choices = constants.sampling.choices;
     constants.denoising = denoisingConstants(options.settings);
@@ -251,6 +253,8 @@ std::optional<Error> Renderer::Impl::preparePlan() {
                                      shared::SAMPLE_LIGHT_LIMIT)};
         }
         lists = std::make_unique<VisibleLists>(device, width, height);
+        if (plan.compactRays)
+            rayList = std::make_unique<RayList>(device, width, height, constants.sampling.rays);
         Result<gpu::Image> mask = uploadNoise(device);
         if (!mask) return Error{mask.error()};
         noise = std::move(mask.value());

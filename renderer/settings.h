@@ -47,6 +47,7 @@ struct Settings {
     GBufferChoice gbuffer = GBufferChoice::Auto;
     Sampling sampling = Sampling::Full;
     Noise noise = Noise::Blue;
+    bool compactRays = true;
     bool guiding = true;
     int listLength = 32;
     int listMemory = 8;

@@ -76,13 +76,21 @@ VkPipeline ComputePass::pipeline(const SpecValues& features) {
 }
 
 void ComputePass::recordBytes(Commands& commands, const SpecValues& features, const Bindings& bindings,
-                              std::span<const std::byte> constants, GroupCount groups) {
+                              std::span<const std::byte> constants,
+                              const std::variant<GroupCount, IndirectGroups>& groups) {
+    const auto* indirect = std::get_if<IndirectGroups>(&groups);
     commands.beginPass(name_);
     const VkDescriptorSet set = prepare(commands, bindings);
+    if (indirect) commands.use(*indirect->buffer, Usage::IndirectRead);
     commands.flushBarriers();
     vkCmdBindPipeline(commands.handle(), VK_PIPELINE_BIND_POINT_COMPUTE, pipeline(features));
     push(commands, set, VK_PIPELINE_BIND_POINT_COMPUTE, constants);
-    vkCmdDispatch(commands.handle(), groups.x, groups.y, groups.z);
+    if (indirect) {
+        vkCmdDispatchIndirect(commands.handle(), indirect->buffer->handle(), indirect->offset);
+    } else {
+        const auto& [x, y, z] = std::get<GroupCount>(groups);
+        vkCmdDispatch(commands.handle(), x, y, z);
+    }
     commands.endPass();
     captureWrites(commands, bindings);
 }

@@ -138,6 +138,11 @@ struct GroupCount {
     std::uint32_t x = 1, y = 1, z = 1;
 };
 
+struct IndirectGroups {
+    const Buffer* buffer = nullptr;
+    VkDeviceSize offset = 0;
+};
+
 enum class PipelineWait { Exact, AllFeaturesMeanwhile };
 
 class ComputePass : public PassBase {
@@ -156,6 +161,17 @@ class ComputePass : public PassBase {
     void record(Commands& commands, const SpecValues& features, const Bindings& bindings, GroupCount groups) {
         recordBytes(commands, features, bindings, {}, groups);
     }
+    // Three words at `offset` of `arguments` say how many groups there are.
+    template<typename Push>
+    void recordIndirect(Commands& commands, const SpecValues& features, const Bindings& bindings,
+                        const Push& constants, const Buffer& arguments, VkDeviceSize offset) {
+        recordBytes(commands, features, bindings, std::as_bytes(std::span(&constants, 1)),
+                    IndirectGroups{&arguments, offset});
+    }
+    void recordIndirect(Commands& commands, const SpecValues& features, const Bindings& bindings,
+                        const Buffer& arguments, VkDeviceSize offset) {
+        recordBytes(commands, features, bindings, {}, IndirectGroups{&arguments, offset});
+    }
     // Groups that cover width x height (x depth) threads.
     GroupCount cover(std::uint32_t width, std::uint32_t height, std::uint32_t depth = 1) const;
     GroupCount localSize() const { return {code_.localSize[0], code_.localSize[1], code_.localSize[2]}; }
@@ -170,7 +186,8 @@ class ComputePass : public PassBase {
 
   private:
     void recordBytes(Commands& commands, const SpecValues& features, const Bindings& bindings,
-                     std::span<const std::byte> constants, GroupCount groups);
+                     std::span<const std::byte> constants,
+                     const std::variant<GroupCount, IndirectGroups>& groups);
     VkPipeline pipeline(const SpecValues& features);
     VkPipeline create(const SpecValues& features) const;
     void destroyPipelines();

@@ -5,6 +5,7 @@
 #include "renderer/gpu/pass.h"
 #include "renderer/gpu_scene.h"
 #include "renderer/light_grid.h"
+#include "renderer/ray_list.h"
 #include "renderer/targets.h"
 #include "renderer/visible_lists.h"
 #include "shaders/shared/frame.h"
@@ -23,6 +24,7 @@ struct FrameContext {
     gpu::SpecValues features;
     const VisibleLists* lists = nullptr; // of the stochastic method
     const gpu::Image* noise = nullptr;   // of the stochastic method
+    const RayList* rays = nullptr;       // null: every pixel has its own place in a dispatch
 
     // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
     gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
@@ -106,10 +108,19 @@ class UpsampleSamplesPass {
     gpu::ComputePass pass_;
 };
 
+class CompactRaysPass {
+  public:
+    explicit CompactRaysPass(gpu::PassResources& resources);
+    void record(FrameContext& frame, std::uint32_t layer);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
 class TraceSamplesPass {
   public:
     TraceSamplesPass(gpu::PassResources& resources, TraceBackEnd tracer);
-    void record(FrameContext& frame, const gpu::Bindings& world);
+    void record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t layer);
 
   private:
     gpu::ComputePass pass_;

@@ -1,6 +1,8 @@
 // The passes of stochastic direct lighting, from the choice of lights to shaded samples.
 #include "renderer/passes/passes.h"
 
+#include "shaders/shared/features.h"
+
 #include <fmt/format.h>
 
 namespace kilolux {
@@ -19,6 +21,17 @@ gpu::Bindings receiverBindings(const FrameContext& frame) {
                     {"gNormals", frame.targets.gNormals},
                     {"gMaterial", frame.targets.gMaterial}},
                    frame.scene.lightBindings()});
+}
+
+// Of lib/ray_list.glsl; dummies stand in where there is no list.
+std::vector<gpu::PassUse> rayListUses() {
+    return {{"RayListHeads", Access::Read, gpu::Presence::Optional},
+            {"rayList", Access::Read, gpu::Presence::Optional}};
+}
+
+gpu::Bindings rayListBindings(const FrameContext& frame) {
+    if (!frame.rays) return {};
+    return {{"RayListHeads", frame.rays->heads}, {"rayList", frame.rays->entries}};
 }
 
 // The reservoirs of a pixel live in registers. GLSL cannot pass structs with arrays that a specialization
@@ -75,22 +88,50 @@ void UpsampleSamplesPass::record(FrameContext& frame) {
                  frame.tiles());
 }
 
+CompactRaysPass::CompactRaysPass(gpu::PassResources& resources)
+    : pass_(resources, "compact_rays",
+            {{"Frame"},
+             {"samples"},
+             {"RayListHeads", Access::ReadWrite},
+             {"RayListOut", Access::Write},
+             {"rayResultsOut", Access::Write},
+             {"litDiffuseOut", Access::Write},
+             {"litSpecularOut", Access::Write}}) {}
+
+void CompactRaysPass::record(FrameContext& frame, std::uint32_t layer) {
+    const glm::uvec2 tiles = (frame.constants.size + shared::RAY_TILE_PX - 1u) / shared::RAY_TILE_PX;
+    const bool onlyRay = frame.constants.sampling.rays == 1;
+    pass_.record(frame.commands, frame.features,
+                 {{"Frame", frame.frameBuffer},
+                  {"samples", frame.targets.samples},
+                  {"RayListHeads", frame.rays->heads},
+                  {"RayListOut", frame.rays->entries},
+                  {"rayResultsOut", frame.targets.rayResults},
+                  {"litDiffuseOut", frame.targets.litDiffuse},
+                  {"litSpecularOut", frame.targets.litSpecular}},
+                 glm::uvec2(layer, onlyRay), {tiles.x * tiles.y});
+}
+
 TraceSamplesPass::TraceSamplesPass(gpu::PassResources& resources, TraceBackEnd tracer)
     : pass_(resources, "trace_samples",
             joined({receiverUses(),
+                    rayListUses(),
                     {{"samples"}, {"rayResultsOut", Access::Write}, {"Counters", Access::ReadWrite}},
                     traceUses(tracer)}),
             {}, tracerDefines(tracer)) {}
 
-void TraceSamplesPass::record(FrameContext& frame, const gpu::Bindings& world) {
-    for (std::uint32_t layer = 0; layer < frame.constants.sampling.rays; ++layer) {
-        pass_.record(frame.commands, frame.features,
-                     joined({receiverBindings(frame),
-                             {{"samples", frame.targets.samples},
-                              {"rayResultsOut", frame.targets.rayResults},
-                              {"Counters", frame.counters}},
-                             world}),
-                     layer, frame.tiles());
+void TraceSamplesPass::record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t layer) {
+    const gpu::Bindings bindings = joined({receiverBindings(frame),
+                                           rayListBindings(frame),
+                                           {{"samples", frame.targets.samples},
+                                            {"rayResultsOut", frame.targets.rayResults},
+                                            {"Counters", frame.counters}},
+                                           world});
+    if (frame.rays) {
+        pass_.recordIndirect(frame.commands, frame.features, bindings, layer, frame.rays->heads,
+                             layer * sizeof(shared::RayListHead));
+    } else {
+        pass_.record(frame.commands, frame.features, bindings, layer, frame.tiles());
     }
 }
 
@@ -121,19 +162,27 @@ void VisibleListPass::record(FrameContext& frame) {
 ShadeSamplesPass::ShadeSamplesPass(gpu::PassResources& resources)
     : pass_(resources, "shade_samples",
             joined({receiverUses(),
+                    rayListUses(),
                     {{"samples"},
                      {"rayResults"},
                      {"litDiffuseOut", Access::Write},
                      {"litSpecularOut", Access::Write}}})) {}
 
 void ShadeSamplesPass::record(FrameContext& frame) {
-    pass_.record(frame.commands, frame.features,
-                 joined({receiverBindings(frame),
-                         {{"samples", frame.targets.samples},
-                          {"rayResults", frame.targets.rayResults},
-                          {"litDiffuseOut", frame.targets.litDiffuse},
-                          {"litSpecularOut", frame.targets.litSpecular}}}),
-                 frame.tiles());
+    const gpu::Bindings bindings = joined({receiverBindings(frame),
+                                           rayListBindings(frame),
+                                           {{"samples", frame.targets.samples},
+                                            {"rayResults", frame.targets.rayResults},
+                                            {"litDiffuseOut", frame.targets.litDiffuse},
+                                            {"litSpecularOut", frame.targets.litSpecular}}});
+    // Several rays are summed per pixel, so that the list of one of them does not serve.
+    if (frame.rays && frame.constants.sampling.rays == 1) {
+        pass_.recordIndirect(frame.commands, frame.features, bindings, frame.rays->heads, 0);
+    } else {
+        gpu::SpecValues features = frame.features;
+        features[shared::CHOICE_COMPACT_RAYS] = 0;
+        pass_.record(frame.commands, features, bindings, frame.tiles());
+    }
 }
 
 CountLightsPass::CountLightsPass(gpu::PassResources& resources)

@@ -4,7 +4,7 @@
 // diffuse light is without the diffuse albedo, specular light without the pre-integrated environment BRDF, so that
 // the denoiser blurs no material.
 #include "shared/features.h"
-#include "lib/dispatch.glsl"
+#include "lib/ray_list.glsl"
 #include "lib/receiver.glsl"
 #include "lib/environment_brdf.glsl"
 #include "lib/sample.glsl"
@@ -15,15 +15,12 @@ uniform usampler2DArray rayResults;
 layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
 
-const float kEditedFrames = 4.0; // that history may hold where all light was edited; more for a part of it
-const float kFreeFrames = 255.0;
-
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = pixelOfRay(0u); // the list is that of the only ray
     if (!isInPicture(pixel)) return;
     SamplingConstants how = frame.sampling;
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
-    float valid = 0.0, frames = kFreeFrames;
+    vec2 state = vec2(0.0, kFreeFrames);
     Receiver receiver = loadReceiver(pixel);
     if (receiver.exists) {
         LtcLobe lobe;
@@ -33,13 +30,7 @@ void main() {
         for (uint i = 0u; i < how.rays; ++i) {
             uvec4 texel = texelFetch(samples, ivec3(pixel, i), 0);
             StoredSample s = unpackSample(texel);
-            if (i == 0u) {
-                // A pixel that had no turn is all 0; one without any light has at least a point.
-                bool sampled = (texel.y | texel.z) != 0u;
-                valid = !sampled ? 0.0 : ((s.flags & SAMPLE_RECONSTRUCTED) != 0u ? 0.5 : 1.0);
-                float editedShare = float(s.flags >> SAMPLE_EDITED_SHIFT) * (1.0 / 255.0);
-                if (editedShare > 0.0) frames = min(kEditedFrames / editedShare, kFreeFrames);
-            }
+            if (i == 0u) state = sampledState(texel);
             if (!(s.contribution > 0.0)) continue;
             float visible = 0.0;
             bool first = true;
@@ -47,8 +38,8 @@ void main() {
                 StoredSample other = unpackSample(texelFetch(samples, ivec3(pixel, j), 0));
                 if (!(other.contribution > 0.0) || other.slot != s.slot) continue;
                 first = first && j >= i;
-                uint state = texelFetch(rayResults, ivec3(pixel, j), 0).x & RAY_STATE_MASK;
-                visible += state == RAY_VISIBLE ? other.contribution : 0.0;
+                uint result = texelFetch(rayResults, ivec3(pixel, j), 0).x & RAY_STATE_MASK;
+                visible += result == RAY_VISIBLE ? other.contribution : 0.0;
             }
             if (!first || visible <= 0.0) continue;
             if (!lobeMade) lobe = makeLtcLobe(receiver.point);
@@ -60,6 +51,6 @@ void main() {
         }
         specular /= environmentBrdf(receiver.point.noV, receiver.point.roughness, f0);
     }
-    imageStore(litDiffuseOut, ivec2(pixel), vec4(diffuse, valid));
-    imageStore(litSpecularOut, ivec2(pixel), vec4(specular, frames));
+    imageStore(litDiffuseOut, ivec2(pixel), vec4(diffuse, state.x));
+    imageStore(litSpecularOut, ivec2(pixel), vec4(specular, state.y));
 }

@@ -1,8 +1,8 @@
 #version 460
 // One shadow ray per sample, from the pixel's own surface to the sampled point of the light.
 #include "shared/features.h"
-#include "lib/dispatch.glsl"
 #include "lib/count.glsl"
+#include "lib/ray_list.glsl"
 #include "lib/receiver.glsl"
 #include "lib/sample.glsl"
 #include "lib/trace.glsl"
@@ -17,7 +17,7 @@ uniform usampler2DArray samples;
 layout(r32ui) writeonly uniform uimage2DArray rayResultsOut;
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = pixelOfRay(layer);
     if (!isInPicture(pixel)) return;
     StoredSample chosen = unpackSample(texelFetch(samples, ivec3(pixel, layer), 0));
     uint result = RAY_NONE;

@@ -30,6 +30,7 @@ const int CHOICE_DEMODULATED = 38;       // specular light is without the enviro
 const int CHOICE_COUNT_SAMPLES = 39;     // pixels may be without a sample in a frame
 const int CHOICE_SPARSE_NEIGHBOURS = 41; // every second pixel of 5 x 5, where texel fetches are dear
 const int CHOICE_LANES = 40;             // of a subgroup, for passes whose workgroup is one; see gpu/pass.h
+const int CHOICE_COMPACT_RAYS = 42;      // trace_samples and shade_samples walk the list of compact_rays
 
 const int HALF_OFF = 0;
 const int HALF_CHECKERBOARD = 1;

@@ -27,6 +27,18 @@ KX_CONST uint RAY_HIDDEN = 2u;
 KX_CONST uint RAY_STATE_MASK = 3u;
 KX_CONST uint RAY_QUARTER_SHIFT = 2u;
 
+// --- List of rays: a word per ray with a light, x | y << 16 of its pixel, by tiles and in them by light -------
+KX_CONST uint RAY_TILE_PX = 16u;
+KX_CONST uint RAY_GROUP = 64u; // rays that a workgroup takes
+
+// How long the list is. The first three words are the arguments of an indirect dispatch over it.
+struct RayListHead {
+    uint groupsX;
+    uint groupsY;
+    uint groupsZ;
+    uint count;
+};
+
 // --- Visible light lists: RG32UI texels, LIST_TEXELS a tile ---------------------------------------------
 // Texel 0: entries, and lights for which there was no room. Then the entries, sorted by slot:
 // x: slot, epoch, masks and age; y: energy, the sum over visible samples of their weights times 256

@@ -14,6 +14,7 @@
     F(size) F(outputSize) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
     F(rasterized) F(grid) F(steadyClipFromWorld) F(previousClipFromWorld) F(depthRow) F(previousDepthRow) \
     F(previousSize) F(previousTiles) F(exposureRatio) F(historyValid) F(sampling) F(denoising)
+#define FIELDS_RayListHead(F) F(groupsX) F(groupsY) F(groupsZ) F(count)
 #define FIELDS_SamplingConstants(F) \
     F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(hiddenShare) \
     F(missHiddenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) \
