@@ -236,7 +236,10 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
     GpuLights lights = makeGpuLights(scene, anchor_, exposureEv100);
     std::vector<std::uint64_t> ids;
     for (std::size_t i = 0; i < lights.hot.size(); ++i) {
-        ids.push_back(scene.lights[i].id);
+        // Lights made in memory may have no name yet: their place in the scene stands for it.
+        constexpr std::uint64_t kUnnamed = std::uint64_t(1) << 63;
+        const std::uint64_t id = scene.lights[i].id;
+        ids.push_back(id != 0 ? id : kUnnamed + i);
         if (i < offsetsM.size()) lights.hot[i].positionWs += glm::vec3(offsetsM[i]);
     }
     derivedRanges_ = lights.derivedRanges;
