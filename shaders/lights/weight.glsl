@@ -107,9 +107,10 @@ KX_INLINE LightView lightView(LightExtent e) {
     float nearest2 = fromX2 + besideX * besideX;
     float cosines = sqrt(height2 * nearest2) / (fromX * fromY);
     view.solidAngle = widthX * widthY * (1.0 + 0.143 * widthX * widthY) * cosines;
-    float areaM2 = 4.0 * a * b;
+    // The area is written so that no compiler factors it differently where it knows the type.
     float endM2 = e.flat_ ? 0.0 : KX_PI * b * b;
-    view.solidAngle = (view.solidAngle + endM2 / nearest2) / max(areaM2 + endM2, KX_MIN_AREA_M2);
+    float areaM2 = b * (4.0 * a + (e.flat_ ? 0.0 : KX_PI * b));
+    view.solidAngle = (view.solidAngle + endM2 / nearest2) / max(areaM2, KX_MIN_AREA_M2);
     // The middle of each angle.
     float middleX = (x0 * invX0 + x1 * invX1) / (invX0 + invX1);
     float middleY = (y0 * invY0 + y1 * invY1) / (invY0 + invY1);
