@@ -69,10 +69,10 @@ struct Settings {
     double specularFrames = 16.0;
     double leastFrames = 4.0;
     double clipWidth = 0.6;
-    double spatialRadius = 12.0;
+    double spatialRadius = 8.0;
     double spatialThreshold = 0.05;
     bool antiAlias = true;
-    double antiAliasFrames = 32.0;
+    double antiAliasFrames = 64.0;
     double antiAliasClip = 1.25;
     double renderScale = 1.0;
     double timeS = 0.0;

@@ -79,6 +79,8 @@ void Targets::makeFiltered(const Make& make, const TargetNeeds& needs) {
     if (needs.antiAliased) {
         antiAliased = make("antiAliased", half, 0);
         previousAntiAliased = make("previousAntiAliased", half, 0);
+        pixelMoments = make("pixelMoments", half, 0);
+        previousPixelMoments = make("previousPixelMoments", half, 0);
     }
     if (needs.rawColor) rawColor = make("rawColor", full, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     if (needs.mean) meanColor = make("meanColor", full, 0);
@@ -97,18 +99,47 @@ void Targets::turnFilteredHistory() {
     std::swap(historySpecular, previousSpecular);
     std::swap(historyMoments, previousMoments);
     std::swap(antiAliased, previousAntiAliased);
+    std::swap(pixelMoments, previousPixelMoments);
 }
 
 std::vector<const gpu::Image*> Targets::all() const {
     std::vector<const gpu::Image*> result;
-    for (const gpu::Image* image :
-         {&visibility,          &rasterDepth,     &gDepth,          &gNormals,         &gMaterial,
-          &gEmissive,           &pyramid,         &motion,          &previousDepth,    &previousNormals,
-          &samplesHalf,         &samples,         &rayResults,      &litDiffuse,       &litSpecular,
-          &historyDiffuse,      &historySpecular, &historyMoments,  &previousDiffuse,  &previousSpecular,
-          &previousMoments,     &denoiseTrace,    &denoisedDiffuse, &denoisedSpecular, &lightCounts,
-          &sceneColor,          &rawColor,        &meanColor,       &meanMoments,      &antiAliased,
-          &previousAntiAliased, &viewportColor,   &viewValues,      &display}) {
+    for (const gpu::Image* image : {&visibility,
+                                    &rasterDepth,
+                                    &gDepth,
+                                    &gNormals,
+                                    &gMaterial,
+                                    &gEmissive,
+                                    &pyramid,
+                                    &motion,
+                                    &previousDepth,
+                                    &previousNormals,
+                                    &samplesHalf,
+                                    &samples,
+                                    &rayResults,
+                                    &litDiffuse,
+                                    &litSpecular,
+                                    &historyDiffuse,
+                                    &historySpecular,
+                                    &historyMoments,
+                                    &previousDiffuse,
+                                    &previousSpecular,
+                                    &previousMoments,
+                                    &denoiseTrace,
+                                    &denoisedDiffuse,
+                                    &denoisedSpecular,
+                                    &lightCounts,
+                                    &sceneColor,
+                                    &rawColor,
+                                    &meanColor,
+                                    &meanMoments,
+                                    &antiAliased,
+                                    &previousAntiAliased,
+                                    &pixelMoments,
+                                    &previousPixelMoments,
+                                    &viewportColor,
+                                    &viewValues,
+                                    &display}) {
         if (*image) result.push_back(image);
     }
     return result;

@@ -50,13 +50,14 @@ struct Targets {
     gpu::Image denoiseTrace;    // RGBA16F, for views: see shaders/passes/denoise_temporal.comp
     gpu::Image denoisedDiffuse; // RGBA16F: as historyDiffuse, filtered in space
     gpu::Image denoisedSpecular;
-    gpu::Image lightCounts; // R32UI: lights in range, lights seen << 16
-    gpu::Image sceneColor;  // RGBA32F, exposed: this frame's picture, denoised where the plan says so
-    gpu::Image rawColor;    // RGBA32F, exposed: the same of light as it was sampled
-    gpu::Image meanColor;   // RGBA32F, exposed: mean of the frames as sampled, and how many
-    gpu::Image meanMoments; // RG32F: mean and variance of their luminance
-    gpu::Image antiAliased; // RGBA16F, exposed, and the frames that it holds
-    gpu::Image previousAntiAliased;
+    gpu::Image lightCounts;  // R32UI: lights in range, lights seen << 16
+    gpu::Image sceneColor;   // RGBA32F, exposed: this frame's picture, denoised where the plan says so
+    gpu::Image rawColor;     // RGBA32F, exposed: the same of light as it was sampled
+    gpu::Image meanColor;    // RGBA32F, exposed: mean of the frames as sampled, and how many
+    gpu::Image meanMoments;  // RG32F: mean and variance of their luminance
+    gpu::Image antiAliased;  // RGBA16F, exposed, and the frames that it holds
+    gpu::Image pixelMoments; // RGBA16F: mean and deviation over time of what anti-aliasing gets
+    gpu::Image previousAntiAliased, previousPixelMoments;
     gpu::Image viewportColor; // RGBA16F, exposed, and the mean's share in it
     gpu::Image viewValues;    // RGBA32F: raw values of a debug view; only with one
     gpu::Image display;       // RGBA8, sRGB-encoded

@@ -78,7 +78,9 @@ AntiAliasPass::AntiAliasPass(gpu::PassResources& resources)
              {"motion"},
              {"sceneColor"},
              {"previousAntiAliased"},
-             {"antiAliasedOut", Access::Write}}) {}
+             {"previousPixelMoments"},
+             {"antiAliasedOut", Access::Write},
+             {"pixelMomentsOut", Access::Write}}) {}
 
 void AntiAliasPass::record(FrameContext& frame) {
     const Targets& targets = frame.targets;
@@ -88,7 +90,9 @@ void AntiAliasPass::record(FrameContext& frame) {
                   {"motion", targets.motion},
                   {"sceneColor", targets.sceneColor},
                   {"previousAntiAliased", targets.previousAntiAliased, gpu::SamplerKind::LinearClamp},
-                  {"antiAliasedOut", targets.antiAliased}},
+                  {"previousPixelMoments", targets.previousPixelMoments},
+                  {"antiAliasedOut", targets.antiAliased},
+                  {"pixelMomentsOut", targets.pixelMoments}},
                  frame.tiles());
 }
 

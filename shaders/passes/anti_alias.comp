@@ -1,7 +1,11 @@
 #version 460
 // Temporal anti-aliasing: jittered frames averaged where they belong (Karis, "High Quality Temporal Supersampling",
-// SIGGRAPH 2014), history clipped to the variance of the 3 x 3 neighbourhood in YCoCg (Salvi, GDC 2016). Jitter is
-// drawn from the pixel filter, so frames count alike; a still picture holds more and more of them.
+// SIGGRAPH 2014), history clipped to the variance of the 3 x 3 neighbourhood in YCoCg (Salvi, GDC 2016) or, where
+// that is more, to the variance that the pixel itself has shown over the last frames: a lamp's edge that jitter
+// meets in one frame of ten is in no box of the other nine, and clipping would take it away.
+//
+// Jitter is drawn from the pixel filter, so frames count alike, and light is averaged as it is: a still picture
+// converges to the supersampled one. (Weights by tone mapping would darken the rims of lamps.)
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/history.glsl"
@@ -11,17 +15,15 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gDepth;
 uniform sampler2D sceneColor;
 uniform sampler2D previousAntiAliased; // filtered linearly
+uniform sampler2D previousPixelMoments;
 layout(rgba16f) writeonly uniform image2D antiAliasedOut;
+layout(rgba16f) writeonly uniform image2D pixelMomentsOut; // of this pixel's light over time: mean, deviation
 
-const float kLeastFrames = 4.0;  // that remain of a history which was clipped far
+const float kLeastFrames = 4.0;   // that remain of a history which was clipped far
+const float kMovingFrames = 16.0; // at most where the picture moves: each resampling blurs
+const float kMomentFrames = 16.0; // that the deviation over time remembers
 const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
 const float kStillPx = 1.0 / 64.0;
-
-// Light up to display white counts in full, so that edges get the mean of both sides; brighter light less, or
-// a single lamp's pixel would spoil many.
-float displayWeight(float y) {
-    return 1.0 / max(y, 1.0);
-}
 
 // Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
 vec4 historySharp(vec2 uv) {
@@ -67,25 +69,34 @@ void main() {
         }
     }
     mean /= 9.0;
-    vec3 extent = frame.denoising.antiAliasClip * sqrt(max(square / 9.0 - mean * mean, vec3(0.0)));
+    vec3 spread = sqrt(max(square / 9.0 - mean * mean, vec3(0.0)));
 
     Reprojection r = reproject(uvec2(nearest));
     r.uv += (vec2(pixel) - vec2(nearest)) / vec2(frame.size);
     float frames = 1.0;
+    vec2 moments = vec2(now.x, 0.0);
     if (r.onScreen && all(greaterThanEqual(r.uv, vec2(0.0))) && all(lessThan(r.uv, vec2(1.0)))) {
-        vec2 movedPx = abs(r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5);
+        vec2 foundPx = r.uv * vec2(frame.previousSize) - 0.5;
+        vec2 movedPx = abs(foundPx - vec2(pixel));
         bool still = max(movedPx.x, movedPx.y) < kStillPx;
         vec4 history = readHistory(still ? texelFetch(previousAntiAliased, at, 0) : historySharp(r.uv));
+        moments = readMomentHistory(texelFetch(previousPixelMoments, ivec2(foundPx + 0.5), 0)).xy;
         vec3 before = yCoCgFromRgb(history.rgb);
+        vec3 hue = abs(before) / max(before.x, 1.0e-6);
+        vec3 extent = frame.denoising.antiAliasClip * max(spread, moments.y * hue);
         // Towards the middle of the box until inside, which keeps the hue better than clamping by component.
-        vec3 out3 = abs(before - mean) / max(extent, vec3(1.0e-5));
-        float far = max(out3.x, max(out3.y, out3.z));
-        vec3 clipped = far > 1.0 ? mean + (before - mean) / far : before;
+        vec3 off = abs(before - mean) / max(extent, vec3(1.0e-5));
+        float farthest = max(off.x, max(off.y, off.z));
+        vec3 clipped = farthest > 1.0 ? mean + (before - mean) / farthest : before;
         float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));
-        frames = min(history.a + 1.0, mix(kLeastFrames, frame.denoising.antiAliasFrames, confidence));
-        float wNow = displayWeight(now.x), wBefore = displayWeight(clipped.x) * (frames - 1.0);
-        now = (now * wNow + clipped * wBefore) / (wNow + wBefore);
+        float most = still ? frame.denoising.antiAliasFrames : min(frame.denoising.antiAliasFrames, kMovingFrames);
+        frames = min(history.a + 1.0, mix(kLeastFrames, most, confidence));
+        float y = now.x, share = 1.0 / min(frames, kMomentFrames), change = y - moments.x;
+        float variance = (1.0 - share) * (moments.y * moments.y + share * change * change);
+        moments = vec2(moments.x + share * change, sqrt(variance));
+        now = mix(clipped, now, 1.0 / frames);
     }
     vec3 result = roundedToHalf(storableLight(rgbFromYCoCg(now)), pixelSeed(pixel, frame.frame, frame.seed ^ 0xaau));
     imageStore(antiAliasedOut, at, vec4(result, frames));
+    imageStore(pixelMomentsOut, at, vec4(storableLight(vec3(moments, 0.0)), 0.0));
 }

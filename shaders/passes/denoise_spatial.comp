@@ -24,7 +24,7 @@ layout(rgba16f) writeonly uniform image2D denoisedSpecularOut;
 const float kNewFrames = 4.0;    // up to which a history counts as new
 const float kTaps = 8.0;
 const float kTapsNew = 16.0;     // where it is new
-const float kDeviations = 3.0;   // apart at which two pixels no longer mix
+const float kDeviations = 1.0;   // apart at which two pixels mix by half
 const float kDarkest = 1.0e-3;   // of display white: noise below is not seen
 const float kGoldenAngleRad = 2.39996323;
 const float kPlanePx = 1.5;      // distance from the other's plane, in pixels, at which a weight is 0
@@ -50,22 +50,23 @@ bool loadPlace(ivec2 at, out Place place) {
     return true;
 }
 
-// One signal at one pixel: light, standard error of its luminance, and how much it wants to be filtered.
+// One signal at one pixel.
 struct Signal {
     vec3 rgb;
-    float y;
-    float error;
+    float y;     // mean luminance of the neighbourhood: a pixel's own would stop at its noise
+    float error; // standard error of the pixel's luminance
     float need;
     float isNew; // 1: the first frame of a history, 0 from kNewFrames on
 };
 
-Signal makeSignal(vec4 light, float deviation) {
+// `moments`: mean and standard deviation of luminance around the pixel and over time.
+Signal makeSignal(vec4 light, vec2 moments) {
     Signal s;
     s.rgb = light.rgb;
-    s.y = yCoCgFromRgb(light.rgb).x;
+    s.y = moments.x;
     s.isNew = saturate((kNewFrames - light.a) / (kNewFrames - 1.0));
     // An exponential mean over n frames has the error of 2 n - 1 independent ones.
-    s.error = deviation * inversesqrt(max(2.0 * light.a - 1.0, 1.0));
+    s.error = moments.y * inversesqrt(max(2.0 * light.a - 1.0, 1.0));
     float relative = s.error / (s.y + kDarkest);
     float threshold = frame.denoising.spatialThreshold;
     s.need = max(smoothstep(threshold, 2.0 * threshold, relative), s.isNew);
@@ -75,9 +76,9 @@ Signal makeSignal(vec4 light, float deviation) {
 // The same for both orders of its arguments.
 float mixWeight(Signal a, Signal b) {
     float apart = abs(a.y - b.y) / (kDeviations * sqrt(a.error * a.error + b.error * b.error) + 1.0e-5);
-    float near = saturate(1.0 - apart * apart);
+    float near = 1.0 / (1.0 + apart * apart);
     // New histories know no deviation: nothing stops them.
-    return mix(near * near, 1.0, min(a.isNew, b.isNew)) * min(a.need, b.need);
+    return mix(near, 1.0, min(a.isNew, b.isNew)) * min(a.need, b.need);
 }
 
 vec3 compressed(vec3 rgb, float amount) {
@@ -111,7 +112,7 @@ void main() {
     ivec2 at = ivec2(pixel);
     vec4 diffuse = texelFetch(historyDiffuse, at, 0), specular = texelFetch(historySpecular, at, 0);
     vec4 moments = texelFetch(historyMoments, at, 0);
-    Signal d = makeSignal(diffuse, moments.y), s = makeSignal(specular, moments.w);
+    Signal d = makeSignal(diffuse, moments.xy), s = makeSignal(specular, moments.zw);
     Place here;
     if (max(d.need, s.need) > 0.0 && loadPlace(at, here)) {
         float radiusPx = frame.denoising.spatialRadiusPx;
@@ -134,7 +135,7 @@ void main() {
             float w = placeWeight(here, there);
             if (w <= 0.0) continue;
             vec4 momentsThere = texelFetch(historyMoments, other, 0);
-            Signal dThere = makeSignal(lightD, momentsThere.y), sThere = makeSignal(lightS, momentsThere.w);
+            Signal dThere = makeSignal(lightD, momentsThere.xy), sThere = makeSignal(lightS, momentsThere.zw);
             // Smooth surfaces show sharp highlights: their taps end sooner.
             float reach = radiusPx * min(lobe, saturate(there.roughness / kRoughLobe));
             float wS = w * saturate(2.0 - 2.0 * radius / max(reach, 1.0e-3));

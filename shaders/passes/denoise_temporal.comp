@@ -177,11 +177,11 @@ Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums su
         vec3 old = storableLight(rgbFromYCoCg(before));
         float share = 1.0 / max(frames, 1.0);
         result.light = vec4(mix(old, min(rgb, vec3(kHalfMax)), share), frames);
-        // The deviation is that of the whole neighbourhood: 25 times as sure as a pixel's own.
+        // Moments are those of the whole neighbourhood: many times as sure as a pixel's own.
         float deviation = noise.x;
         float momentShare = max(1.0 / (heldFrames + 1.0), share);
         float variance = mix(moments.y * moments.y, deviation * deviation, heldFrames > 0.0 ? momentShare : 1.0);
-        result.moments = vec2(mix(moments.x, yCoCgFromRgb(min(rgb, vec3(kHalfMax))).x, share), sqrt(variance));
+        result.moments = vec2(mix(moments.x, mean.x, heldFrames > 0.0 ? momentShare : 1.0), sqrt(variance));
     } else if (frames > 0.0) {
         result.light = history;
         result.moments = moments;
