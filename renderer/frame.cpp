@@ -86,14 +86,11 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
     if (plan.denoise) {
         passes.denoiseTemporal->record(frame);
         passes.denoiseSpatial->record(frame);
-        passes.composite.record(frame, targets.denoisedDiffuse, targets.denoisedSpecular, targets.sceneColor);
-    } else {
-        passes.composite.record(frame, targets.litDiffuse, targets.litSpecular, targets.sceneColor);
     }
-    if (plan.raw()) passes.composite.record(frame, targets.litDiffuse, targets.litSpecular, targets.rawColor);
+    passes.composite.record(frame);
     if (passes.transparent) {
         passes.transparent->record(frame, targets.sceneColor);
-        if (plan.raw()) passes.transparent->record(frame, targets.rawColor);
+        if (plan.keepsRaw()) passes.transparent->record(frame, targets.rawColor);
     }
     if (passes.antiAlias) passes.antiAlias->record(frame);
     if (passes.accumulate) passes.accumulate->record(frame, framesBefore);

@@ -27,9 +27,9 @@ struct FramePlan {
     // What becomes of noisy light. Methods that are references by themselves only average.
     bool denoise = false;
     bool antiAlias = false;
-    bool mean = true;                            // running mean of the frames as sampled
-    bool settle = false;                         // the mean replaces the filtered picture as it converges
-    bool raw() const { return denoise && mean; } // both the filtered and the sampled picture are needed
+    bool mean = true;    // running mean of the frames as sampled
+    bool settle = false; // the mean replaces the filtered picture as it converges
+    bool keepsRaw() const { return denoise && mean; } // both the filtered and the sampled picture are needed
     bool stochastic() const { return method == Method::Stochastic; }
 };
 

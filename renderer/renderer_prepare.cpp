@@ -241,7 +241,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     needs.denoised = plan.denoise;
     needs.denoiseTrace = plan.denoise && isDenoiserView(plan.view);
     needs.antiAliased = plan.antiAlias;
-    needs.rawColor = plan.raw();
+    needs.rawColor = plan.keepsRaw();
     needs.mean = plan.mean;
     needs.counted = plan.mean && plan.stochastic();
     needs.settled = plan.settle;

@@ -47,21 +47,31 @@ CompositePass::CompositePass(gpu::PassResources& resources)
              {"gEmissive"},
              {"litDiffuse"},
              {"litSpecular"},
+             {"rawDiffuse", Access::Read, gpu::Presence::Optional},
+             {"rawSpecular", Access::Read, gpu::Presence::Optional},
              {"ltcScales"},
-             {"sceneColorOut", Access::Write}}) {}
+             {"sceneColorOut", Access::Write},
+             {"rawColorOut", Access::Write, gpu::Presence::Optional}}) {}
 
-void CompositePass::record(FrameContext& frame, const gpu::Image& diffuse, const gpu::Image& specular,
-                           const gpu::Image& color) {
+void CompositePass::record(FrameContext& frame) {
     const Targets& targets = frame.targets;
+    const bool denoised = bool(targets.denoisedDiffuse);
+    gpu::Bindings both;
+    if (targets.rawColor) {
+        both = {{"rawDiffuse", targets.litDiffuse},
+                {"rawSpecular", targets.litSpecular},
+                {"rawColorOut", targets.rawColor}};
+    }
     pass_.record(frame.commands, frame.features,
-                 {{"Frame", frame.frameBuffer},
-                  {"gNormals", targets.gNormals},
-                  {"gMaterial", targets.gMaterial},
-                  {"gEmissive", targets.gEmissive},
-                  {"litDiffuse", diffuse},
-                  {"litSpecular", specular},
-                  frame.scene.environmentBrdf(),
-                  {"sceneColorOut", color}},
+                 joined({both,
+                         {{"Frame", frame.frameBuffer},
+                          {"gNormals", targets.gNormals},
+                          {"gMaterial", targets.gMaterial},
+                          {"gEmissive", targets.gEmissive},
+                          {"litDiffuse", denoised ? targets.denoisedDiffuse : targets.litDiffuse},
+                          {"litSpecular", denoised ? targets.denoisedSpecular : targets.litSpecular},
+                          frame.scene.environmentBrdf(),
+                          {"sceneColorOut", targets.sceneColor}}}),
                  frame.tiles());
 }
 

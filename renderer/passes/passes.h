@@ -174,8 +174,7 @@ class DenoiseSpatialPass {
 class CompositePass {
   public:
     explicit CompositePass(gpu::PassResources& resources);
-    void record(FrameContext& frame, const gpu::Image& diffuse, const gpu::Image& specular,
-                const gpu::Image& color);
+    void record(FrameContext& frame);
 
   private:
     gpu::ComputePass pass_;

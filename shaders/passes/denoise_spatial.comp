@@ -26,7 +26,7 @@ const float kTaps = 8.0;
 const float kTapsNew = 16.0;     // where it is new
 const float kDeviations = 1.0;   // apart at which two pixels mix by half
 const float kDarkest = 1.0e-3;   // of display white: noise below is not seen
-const float kGoldenAngleRad = 2.39996323;
+const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888); // the golden angle
 const float kPlanePx = 1.5;      // distance from the other's plane, in pixels, at which a weight is 0
 const float kRoughLobe = 0.4;    // roughness from which on specular light takes the whole radius
 
@@ -123,23 +123,29 @@ void main() {
         vec3 hereD = compressed(d.rgb, d.isNew), hereS = compressed(s.rgb, s.isNew);
         vec3 sumD = hereD, sumS = hereS;
         float share = 1.0 / float(taps + 1);
+        vec2 dir = vec2(cos(turn.x * KX_TWO_PI), sin(turn.x * KX_TWO_PI));
         for (int i = 0; i < taps; ++i) {
             float radius = radiusPx * sqrt((float(i) + turn.y) / float(taps));
-            float angle = float(i) * kGoldenAngleRad + turn.x * KX_TWO_PI;
-            vec2 offset = radius * vec2(cos(angle), sin(angle));
+            vec2 offset = radius * dir;
+            dir = kGoldenTurn * dir;
             ivec2 other = ivec2(floor(vec2(at) + 0.5 + offset));
             if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, ivec2(frame.size)))) continue;
-            vec4 lightD = texelFetch(historyDiffuse, other, 0), lightS = texelFetch(historySpecular, other, 0);
+            vec4 lightD = texelFetch(historyDiffuse, other, 0);
             Place there;
             if (lightD.a <= 0.0 || !loadPlace(other, there)) continue;
             float w = placeWeight(here, there);
             if (w <= 0.0) continue;
             vec4 momentsThere = texelFetch(historyMoments, other, 0);
-            Signal dThere = makeSignal(lightD, momentsThere.xy), sThere = makeSignal(lightS, momentsThere.zw);
+            if (d.need > 0.0) {
+                Signal dThere = makeSignal(lightD, momentsThere.xy);
+                sumD += share * w * mixWeight(d, dThere) * (compressed(dThere.rgb, d.isNew) - hereD);
+            }
+            if (s.need <= 0.0) continue;
             // Smooth surfaces show sharp highlights: their taps end sooner.
             float reach = radiusPx * min(lobe, saturate(there.roughness / kRoughLobe));
             float wS = w * saturate(2.0 - 2.0 * radius / max(reach, 1.0e-3));
-            sumD += share * w * mixWeight(d, dThere) * (compressed(dThere.rgb, d.isNew) - hereD);
+            if (wS <= 0.0) continue;
+            Signal sThere = makeSignal(texelFetch(historySpecular, other, 0), momentsThere.zw);
             sumS += share * wS * mixWeight(s, sThere) * (compressed(sThere.rgb, s.isNew) - hereS);
         }
         diffuse.rgb = expanded(sumD, d.isNew);

@@ -112,9 +112,9 @@ Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory) {
     Sums none = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     Neighbours n = Neighbours(none, none, 0.0);
     ivec2 size = ivec2(frame.size), previousSize = ivec2(frame.previousSize);
-    int stepX = kSparseNeighbours ? 2 : 1;
-    for (int y = -2; y <= 2; ++y) {
-        for (int x = kSparseNeighbours ? (y & 1) - 2 : -2; x <= 2; x += stepX) {
+    int tapStep = kSparseNeighbours ? 2 : 1;
+    for (int y = -2; y <= 2; y += tapStep) {
+        for (int x = -2; x <= 2; x += tapStep) {
             ivec2 at = pixel + ivec2(x, y), then = before + ivec2(x, y);
             if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
             vec4 diffuse = texelFetch(litDiffuse, at, 0);

@@ -28,7 +28,7 @@ const int CHOICE_WHITE_NOISE = 36;       // white noise instead of blue (lib/noi
 const int CHOICE_HALF_SAMPLING = 37;     // HALF_*
 const int CHOICE_DEMODULATED = 38;       // specular light is without the environment BRDF
 const int CHOICE_COUNT_SAMPLES = 39;     // pixels may be without a sample in a frame
-const int CHOICE_SPARSE_NEIGHBOURS = 41; // every second pixel of 5 x 5, where texel fetches are dear
+const int CHOICE_SPARSE_NEIGHBOURS = 41; // every second row and column of 5 x 5: fetches are dear
 const int CHOICE_LANES = 40;             // of a subgroup, for passes whose workgroup is one; see gpu/pass.h
 const int CHOICE_COMPACT_RAYS = 42;      // trace_samples and shade_samples walk the list of compact_rays
 
