@@ -65,6 +65,7 @@ const gpu::Image& shownPicture(const Targets& targets, const FramePlan& plan) {
 
 void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan, const gpu::Bindings& world,
                  std::uint32_t framesBefore, float depthScaleM) {
+    const Targets& targets = frame.targets;
     if (passes.rasterVisibility) passes.rasterVisibility->record(frame);
     if (passes.traceVisibility) passes.traceVisibility->record(frame, world);
     passes.resolveGBuffer.record(frame);
@@ -80,9 +81,12 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
         }
         if (plan.writeLists) passes.visibleList->record(frame);
         passes.shadeSamples->record(frame);
+        if (frame.replacedDiffuse) {
+            frame.commands.copyBufferToImage(*frame.replacedDiffuse, 0, targets.litDiffuse, 0, 0);
+            frame.commands.copyBufferToImage(*frame.replacedSpecular, 0, targets.litSpecular, 0, 0);
+        }
         if (plan.countLights) passes.countLights->record(frame);
     }
-    const Targets& targets = frame.targets;
     if (plan.denoise) {
         passes.denoiseTemporal->record(frame);
         passes.denoiseSpatial->record(frame);

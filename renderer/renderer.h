@@ -26,6 +26,11 @@ struct NamedChoice {
     std::string_view help;
 };
 
+// Sampled light of a frame as litDiffuse and litSpecular hold it: 4 floats a pixel.
+struct LitTexels {
+    std::vector<float> diffuse, specular;
+};
+
 struct RenderOptions {
     int width = 960; // pixels
     int height = 540;
@@ -38,7 +43,9 @@ struct RenderOptions {
     bool keepTargets = false;              // keep what Renderer::targets() reads back
     bool allFeatures = false;              // the pipelines that can draw any scene; the same picture, slower
     std::optional<std::uint32_t> gridRoom; // indices of the light grid's fine lists at the start, for tests
-    bool poisonTargets = false;            // targets start as NaN, so that a pixel which no pass writes shows
+    // For tests of the filters: what stands in for the light that a frame has sampled; empty: nothing does.
+    std::function<LitTexels(int frame)> replaceLit;
+    bool poisonTargets = false; // targets start as NaN, so that a pixel which no pass writes shows
 };
 
 struct Picture {

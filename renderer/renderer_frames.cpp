@@ -143,6 +143,19 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     if (rayList) commands.fillBuffer(rayList->heads, 0);
     FrameContext context{commands, *gpuScene, *targets,    frameBuffer, constants,    counterBuffer,
                          *grid,    used,      lists.get(), &noise,      rayList.get()};
+    gpu::Buffer replaced[2];
+    if (options.replaceLit) {
+        const LitTexels lit = options.replaceLit(int(index));
+        for (int i = 0; i < 2 && !lit.diffuse.empty(); ++i) {
+            const auto bytes = std::as_bytes(std::span(i == 0 ? lit.diffuse : lit.specular));
+            replaced[i] =
+                gpu::Buffer(device, {"replaced light", bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                     gpu::MemoryUse::HostWrite, "other"});
+            replaced[i].upload(bytes);
+        }
+        context.replacedDiffuse = replaced[0] ? &replaced[0] : nullptr;
+        context.replacedSpecular = replaced[1] ? &replaced[1] : nullptr;
+    }
     recordFrame(context, *passes, plan, world, meanFrames, float(0.25 * sceneExtentM));
     commands.submitAndWait();
 

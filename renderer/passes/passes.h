@@ -25,6 +25,9 @@ struct FrameContext {
     const VisibleLists* lists = nullptr; // of the stochastic method
     const gpu::Image* noise = nullptr;   // of the stochastic method
     const RayList* rays = nullptr;       // null: every pixel has its own place in a dispatch
+    // For tests: texels that replace litDiffuse and litSpecular once samples are shaded.
+    const gpu::Buffer* replacedDiffuse = nullptr;
+    const gpu::Buffer* replacedSpecular = nullptr;
 
     // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
     gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
