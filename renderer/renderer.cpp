@@ -182,8 +182,8 @@ FrameStatistics Renderer::statistics() const {
 Result<std::vector<NamedImage>> Renderer::targets() {
     std::vector<NamedImage> result;
     if (!impl_->options.keepTargets) return result;
-    for (const gpu::Image* image : impl_->targets->all()) {
-        result.push_back({image->desc().name, toFloatImage(*image), image->download()});
+    for (const auto& [name, image] : impl_->targets->all()) {
+        result.push_back({std::string(name), toFloatImage(*image), image->download()});
     }
     return result;
 }

@@ -271,7 +271,7 @@ void Renderer::Impl::poisonTargets() {
     for (std::uint32_t& word : notANumber.uint32)
         word = 0x7fc00000u;
     gpu::Commands commands(device);
-    for (const gpu::Image* image : targets->all()) {
+    for (const auto& [name, image] : targets->all()) {
         if (image != &targets->rasterDepth) commands.clearColor(*image, notANumber);
     }
     commands.submitAndWait();

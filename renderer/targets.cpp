@@ -102,46 +102,47 @@ void Targets::turnFilteredHistory() {
     std::swap(pixelMoments, previousPixelMoments);
 }
 
-std::vector<const gpu::Image*> Targets::all() const {
-    std::vector<const gpu::Image*> result;
-    for (const gpu::Image* image : {&visibility,
-                                    &rasterDepth,
-                                    &gDepth,
-                                    &gNormals,
-                                    &gMaterial,
-                                    &gEmissive,
-                                    &pyramid,
-                                    &motion,
-                                    &previousDepth,
-                                    &previousNormals,
-                                    &samplesHalf,
-                                    &samples,
-                                    &rayResults,
-                                    &litDiffuse,
-                                    &litSpecular,
-                                    &historyDiffuse,
-                                    &historySpecular,
-                                    &historyMoments,
-                                    &previousDiffuse,
-                                    &previousSpecular,
-                                    &previousMoments,
-                                    &denoiseTrace,
-                                    &denoisedDiffuse,
-                                    &denoisedSpecular,
-                                    &lightCounts,
-                                    &sceneColor,
-                                    &rawColor,
-                                    &meanColor,
-                                    &meanMoments,
-                                    &antiAliased,
-                                    &previousAntiAliased,
-                                    &pixelMoments,
-                                    &previousPixelMoments,
-                                    &viewportColor,
-                                    &viewValues,
-                                    &display}) {
-        if (*image) result.push_back(image);
-    }
+std::vector<NamedTarget> Targets::all() const {
+    std::vector<NamedTarget> result;
+#define KX_TARGET(name)                                                                                      \
+    if (name) result.push_back({#name, &(name)})
+    KX_TARGET(visibility);
+    KX_TARGET(rasterDepth);
+    KX_TARGET(gDepth);
+    KX_TARGET(gNormals);
+    KX_TARGET(gMaterial);
+    KX_TARGET(gEmissive);
+    KX_TARGET(pyramid);
+    KX_TARGET(motion);
+    KX_TARGET(previousDepth);
+    KX_TARGET(previousNormals);
+    KX_TARGET(samplesHalf);
+    KX_TARGET(samples);
+    KX_TARGET(rayResults);
+    KX_TARGET(litDiffuse);
+    KX_TARGET(litSpecular);
+    KX_TARGET(historyDiffuse);
+    KX_TARGET(historySpecular);
+    KX_TARGET(historyMoments);
+    KX_TARGET(previousDiffuse);
+    KX_TARGET(previousSpecular);
+    KX_TARGET(previousMoments);
+    KX_TARGET(denoiseTrace);
+    KX_TARGET(denoisedDiffuse);
+    KX_TARGET(denoisedSpecular);
+    KX_TARGET(lightCounts);
+    KX_TARGET(sceneColor);
+    KX_TARGET(rawColor);
+    KX_TARGET(meanColor);
+    KX_TARGET(meanMoments);
+    KX_TARGET(antiAliased);
+    KX_TARGET(previousAntiAliased);
+    KX_TARGET(pixelMoments);
+    KX_TARGET(previousPixelMoments);
+    KX_TARGET(viewportColor);
+    KX_TARGET(viewValues);
+    KX_TARGET(display);
+#undef KX_TARGET
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "renderer/gpu/resource.h"
 
 #include <functional>
+#include <string_view>
 #include <vector>
 
 namespace kilolux {
@@ -23,6 +24,12 @@ struct TargetNeeds {
     bool rawColor = false; // the mean is of other pictures than the one that is filtered
     bool counted = false;  // it counts samples per pixel
     bool settled = false;  // both are blended
+};
+
+// An image under the name that it has now: current and previous ones change places.
+struct NamedTarget {
+    std::string_view name;
+    const gpu::Image* image;
 };
 
 struct Targets {
@@ -67,7 +74,7 @@ struct Targets {
     // The same of what the filters keep, which may be frozen by itself.
     void turnFilteredHistory();
 
-    std::vector<const gpu::Image*> all() const; // those that exist
+    std::vector<NamedTarget> all() const; // those that exist
 
   private:
     using Make = std::function<gpu::Image(const char* name, VkFormat format, VkImageUsageFlags more)>;

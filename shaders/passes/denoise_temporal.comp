@@ -108,18 +108,17 @@ struct Neighbours {
     float count;
 };
 
-Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory) {
+Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory, int tapStep) {
     Sums none = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     Neighbours n = Neighbours(none, none, 0.0);
     ivec2 size = ivec2(frame.size), previousSize = ivec2(frame.previousSize);
-    int tapStep = kSparseNeighbours ? 2 : 1;
     for (int y = -2; y <= 2; y += tapStep) {
         for (int x = -2; x <= 2; x += tapStep) {
             ivec2 at = pixel + ivec2(x, y), then = before + ivec2(x, y);
             if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
             vec4 diffuse = texelFetch(litDiffuse, at, 0);
             vec3 specular = texelFetch(litSpecular, at, 0).rgb;
-            if (diffuse.a <= 0.0 || !isFiniteLight(diffuse.rgb) || !isFiniteLight(specular)) continue;
+            if (diffuse.a <= 0.0 || !isFiniteLight(diffuse.rgb + specular)) continue;
             vec4 oldDiffuse = vec4(0.0), oldSpecular = vec4(0.0);
             if (hasHistory) {
                 if (any(lessThan(then, ivec2(0))) || any(greaterThanEqual(then, previousSize))) continue;
@@ -207,8 +206,9 @@ void main() {
         float cosView = abs(dot(geoNormalWs, normalize(cameraRay(pixel).dir)));
         History h = fetchHistory(r, geoNormalWs, cosView);
         ivec2 before = ivec2(floor(r.uv * vec2(frame.previousSize)));
-        Neighbours n = gatherNeighbours(at, before, h.weight > 0.0);
         vec4 litD = texelFetch(litDiffuse, at, 0), litS = texelFetch(litSpecular, at, 0);
+        bool hasHistory = h.weight > 0.0, borrows = litD.a <= 0.0 && !hasHistory;
+        Neighbours n = gatherNeighbours(at, before, hasHistory, kSparseNeighbours && !borrows ? 2 : 1);
         float most = litS.a > 0.0 ? litS.a : 255.0;
         Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count,
                                   min(frame.denoising.diffuseFrames, most));
