@@ -44,6 +44,7 @@ RenderOptions smallOptions(int frames) {
     RenderOptions options;
     options.width = 37;
     options.height = 22;
+    options.method = "all-lights";
     options.frames = frames;
     options.keepTargets = true;
     options.method = "all-lights";
