@@ -207,7 +207,7 @@ constexpr std::array kRows = {
         .min = 0.0,
         .max = 1.0,
         .unit = "of the light, standard error",
-        .help = "the viewport shows the mean where its error is smaller, and begins to at four times that"},
+        .help = "the viewport shows the mean where its error is smaller, and begins to at four times that; 0: never"},
     SettingRow{.name = "denoise", .member = &Settings::denoise, .help = "filter light over time and space"},
     SettingRow{.name = "diffuseFrames",
                .member = &Settings::diffuseFrames,

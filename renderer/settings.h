@@ -63,7 +63,7 @@ struct Settings {
     DimLights dimLights = DimLights::Roulette;
     double dimThreshold = 0.002;
     PictureChoice picture = PictureChoice::Viewport;
-    double settleError = 0.02;
+    double settleError = 0.15;
     bool denoise = true;
     double diffuseFrames = 24.0;
     double specularFrames = 16.0;

@@ -11,6 +11,7 @@ DenoiseTemporalPass::DenoiseTemporalPass(gpu::PassResources& resources)
             {{"Frame"},
              {"gDepth"},
              {"gNormals"},
+             {"gMaterial"},
              {"motion"},
              {"litDiffuse"},
              {"litSpecular"},
@@ -29,6 +30,7 @@ void DenoiseTemporalPass::record(FrameContext& frame) {
     gpu::Bindings bindings{{"Frame", frame.frameBuffer},
                            {"gDepth", targets.gDepth},
                            {"gNormals", targets.gNormals},
+                           {"gMaterial", targets.gMaterial},
                            {"motion", targets.motion},
                            {"litDiffuse", targets.litDiffuse},
                            {"litSpecular", targets.litSpecular},
@@ -122,17 +124,18 @@ SettlePass::SettlePass(gpu::PassResources& resources)
              {"filteredColor"},
              {"meanColor"},
              {"meanMoments"},
+             {"pixelMoments", Access::Read, Presence::Optional},
              {"viewportColorOut", Access::Write}}) {}
 
 void SettlePass::record(FrameContext& frame) {
     const Targets& targets = frame.targets;
-    pass_.record(frame.commands, frame.features,
-                 {{"Frame", frame.frameBuffer},
-                  {"filteredColor", targets.antiAliased ? targets.antiAliased : targets.sceneColor},
-                  {"meanColor", targets.meanColor},
-                  {"meanMoments", targets.meanMoments},
-                  {"viewportColorOut", targets.viewportColor}},
-                 frame.tiles());
+    gpu::Bindings bindings{{"Frame", frame.frameBuffer},
+                           {"filteredColor", targets.antiAliased ? targets.antiAliased : targets.sceneColor},
+                           {"meanColor", targets.meanColor},
+                           {"meanMoments", targets.meanMoments},
+                           {"viewportColorOut", targets.viewportColor}};
+    if (targets.pixelMoments) bindings.push_back({"pixelMoments", targets.pixelMoments});
+    pass_.record(frame.commands, frame.features, bindings, frame.tiles());
 }
 
 } // namespace kilolux

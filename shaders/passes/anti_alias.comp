@@ -2,7 +2,8 @@
 // Temporal anti-aliasing: jittered frames averaged where they belong (Karis, "High Quality Temporal Supersampling",
 // SIGGRAPH 2014), history clipped to the variance of the 3 x 3 neighbourhood in YCoCg (Salvi, GDC 2016) or, where
 // that is more, to the variance that the pixel itself has shown over the last frames: a lamp's edge that jitter
-// meets in one frame of ten is in no box of the other nine, and clipping would take it away.
+// meets in one frame of ten is in no box of the other nine, and clipping would take it away. Only what stands still
+// has such a past: behind what moves, it would keep ghosts.
 //
 // Jitter is drawn from the pixel filter, so frames count alike, and light is averaged as it is: a still picture
 // converges to the supersampled one. (Weights by tone mapping would darken the rims of lamps.)
@@ -17,7 +18,7 @@ uniform sampler2D sceneColor;
 uniform sampler2D previousAntiAliased; // filtered linearly
 uniform sampler2D previousPixelMoments;
 layout(rgba16f) writeonly uniform image2D antiAliasedOut;
-layout(rgba16f) writeonly uniform image2D pixelMomentsOut; // of this pixel's light over time: mean, deviation
+layout(rgba16f) writeonly uniform image2D pixelMomentsOut; // of this pixel's light while still: mean, deviation, frames
 
 const float kLeastFrames = 4.0;   // that remain of a history which was clipped far
 const float kMovingFrames = 16.0; // at most where the picture moves: each resampling blurs
@@ -74,13 +75,14 @@ void main() {
     Reprojection r = reproject(uvec2(nearest));
     r.uv += (vec2(pixel) - vec2(nearest)) / vec2(frame.size);
     float frames = 1.0;
-    vec2 moments = vec2(now.x, 0.0);
+    vec3 moments = vec3(now.x, 0.0, 0.0);
     if (r.onScreen && all(greaterThanEqual(r.uv, vec2(0.0))) && all(lessThan(r.uv, vec2(1.0)))) {
         vec2 foundPx = r.uv * vec2(frame.previousSize) - 0.5;
         vec2 movedPx = abs(foundPx - vec2(pixel));
         bool still = max(movedPx.x, movedPx.y) < kStillPx;
         vec4 history = readHistory(still ? texelFetch(previousAntiAliased, at, 0) : historySharp(r.uv));
-        moments = readMomentHistory(texelFetch(previousPixelMoments, ivec2(foundPx + 0.5), 0)).xy;
+        vec4 texel = texelFetch(previousPixelMoments, at, 0);
+        if (still) moments = vec3(readMomentHistory(texel).xy, texel.z);
         vec3 before = yCoCgFromRgb(history.rgb);
         vec3 hue = abs(before) / max(before.x, 1.0e-6);
         vec3 extent = frame.denoising.antiAliasClip * max(spread, moments.y * hue);
@@ -91,12 +93,14 @@ void main() {
         float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));
         float most = still ? frame.denoising.antiAliasFrames : min(frame.denoising.antiAliasFrames, kMovingFrames);
         frames = min(history.a + 1.0, mix(kLeastFrames, most, confidence));
-        float y = now.x, share = 1.0 / min(frames, kMomentFrames), change = y - moments.x;
-        float variance = (1.0 - share) * (moments.y * moments.y + share * change * change);
-        moments = vec2(moments.x + share * change, sqrt(variance));
+        if (still) {
+            float count = min(moments.z + 1.0, kMomentFrames), share = 1.0 / count, change = now.x - moments.x;
+            float variance = (1.0 - share) * (moments.y * moments.y + share * change * change);
+            moments = vec3(moments.x + share * change, sqrt(variance), count);
+        }
         now = mix(clipped, now, 1.0 / frames);
     }
     vec3 result = roundedToHalf(storableLight(rgbFromYCoCg(now)), pixelSeed(pixel, frame.frame, frame.seed ^ 0xaau));
     imageStore(antiAliasedOut, at, vec4(result, frames));
-    imageStore(pixelMomentsOut, at, vec4(storableLight(vec3(moments, 0.0)), 0.0));
+    imageStore(pixelMomentsOut, at, vec4(storableLight(moments), 0.0));
 }

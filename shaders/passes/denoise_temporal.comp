@@ -19,6 +19,7 @@ layout(constant_id = CHOICE_SPARSE_NEIGHBOURS) const bool kSparseNeighbours = fa
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gDepth;
 uniform usampler2D gNormals;
+uniform usampler2D gMaterial;
 uniform sampler2D litDiffuse;
 uniform sampler2D litSpecular;
 uniform sampler2D previousDepth;
@@ -38,6 +39,8 @@ const float kMomentFrames = 12.0;   // that the deviation remembers
 const float kRelaxed = 2.0;         // of the clip width where the sample was reconstructed
 const float kLeastExtent = 0.1;     // of display white: smaller boxes do not shorten history (the talk)
 const float kTaps = 25.0;
+const float kMovesPx = 0.1;    // a picture that moves
+const float kRoughLobe = 0.6;  // roughness from which on highlights are as wide as shading
 
 struct History {
     vec4 diffuse; // light, frames
@@ -210,10 +213,15 @@ void main() {
         bool hasHistory = h.weight > 0.0, borrows = litD.a <= 0.0 && !hasHistory;
         Neighbours n = gatherNeighbours(at, before, hasHistory, kSparseNeighbours && !borrows ? 2 : 1);
         float most = litS.a > 0.0 ? litS.a : 255.0;
+        // Highlights do not move with the surface that shows them, the less the smoother it is.
+        vec2 movedPx = r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5;
+        float roughness = float(texelFetch(gMaterial, at, 0).y & 0xffffu) * (1.0 / 65535.0);
+        float keeps = dot(movedPx, movedPx) > kMovesPx * kMovesPx ? saturate(roughness / kRoughLobe) : 1.0;
+        float mostSpecular = mix(frame.denoising.leastFrames, frame.denoising.specularFrames, keeps);
         Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count,
                                   min(frame.denoising.diffuseFrames, most));
         Filtered s = filterSignal(litS.rgb, litD.a, h.specular, h.moments.zw, n.specular, n.count,
-                                  min(frame.denoising.specularFrames, most));
+                                  min(mostSpecular, most));
         diffuse = d.light;
         specular = s.light;
         moments = vec4(d.moments, s.moments);

@@ -218,11 +218,11 @@ TEST(PictureChoices, DisabledFiltersGiveTheRawFrame) {
         << "images that nobody reads";
 }
 
-// The mean is that of the raw frames, and the viewport becomes it: at once with a generous settleError, never
+// The mean is that of the raw frames, and the viewport becomes it: after 48 frames with a generous settleError, never
 // with none.
 TEST(PictureChoices, TheViewportSettlesOnTheMean) {
     const Scene scene = litStage();
-    constexpr int kFrames = 12;
+    constexpr int kFrames = 48;
     std::vector<double> sum(3 * kPixels, 0.0);
     renderScene(scene, stochastic({"picture=raw"}, kFrames), [&](int, const FrameTargets& t) {
         for (std::size_t i = 0; i < kPixels; ++i)
