@@ -134,6 +134,38 @@ TEST(ListFuzz, AnyListKeepsTheMean) {
     }
 }
 
+// A board just under one half of a rectangle hides the same quarters from the whole floor, so that a mask
+// whose density is wrong shows in the mean.
+TEST(ListFuzz, AnyMaskOfAHalfHiddenLightKeepsTheMean) {
+    SceneBuilder b;
+    const int matt = b.material({0.6, 0.6, 0.6}, 0.0, 0.9);
+    b.quad(floorAt({0, 0, 0}), 4, 4, matt);
+    LightDef def = lightDef(LightType::Rect, 3000, LightUnit::Lumen);
+    def.widthM = def.heightM = 1.0;
+    def.rangeM = 20.0;
+    b.light(def, lookingAlong({0, 5, 0}, {0, -1, 0}));
+    b.quad(floorAt({0.25, 4.98, 0}), 0.5, 1.2, matt);
+    b.quad(floorAt({-0.25, 4.98, -0.3}), 0.5, 0.3, matt);
+    b.scene.cameras.push_back(cameraLooking({0, 4, 0.01}, {0, 0, 0}));
+    const Scene scene = withIds(std::move(b.scene));
+    const RenderOptions options = loopOptions(64, 48, {"raysPerPixel=4", "raysPerLight=16"});
+    const Replicas reference = splitReference(scene, options);
+    Loop loop(scene, options);
+    loop.frames(1);
+    std::vector<glm::uvec2> texels = loop.renderer().visibleLists();
+    for (const std::uint32_t mask : {0u, 1u, 2u, 4u, 8u, 3u}) {
+        for (std::size_t first = 0; first < texels.size(); first += LIST_TEXELS) {
+            texels[first] = {1, 0};
+            texels[first + 1] = {entryWord(0, 0, mask, 0), 1};
+        }
+        const auto replica = [&] {
+            loop.renderer().replaceVisibleLists(texels);
+            return lightOf(loop.next());
+        };
+        expectSameMean(gather(replica, 0.0011), reference, "mask " + std::to_string(mask));
+    }
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // What the lists hold
 
