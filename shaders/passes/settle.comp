@@ -23,10 +23,16 @@ void main() {
     uvec2 pixel = dispatchedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
+    vec4 mean = texelFetch(meanColor, at, 0);
+    vec3 filtered = texelFetch(filteredColor, at, 0).rgb;
+    if (mean.a <= kFewFrames || frame.denoising.settleError <= 0.0) {
+        imageStore(viewportColorOut, at, vec4(storableLight(filtered), 0.0));
+        return;
+    }
     float variance = 0.0, filteredVariance = 0.0, light = 0.0, taps = 0.0;
     bool knowsFiltered = textureSize(pixelMoments, 0) == textureSize(meanColor, 0);
-    for (int y = -4; y <= 4; y += 2) {
-        for (int x = -4; x <= 4; x += 2) {
+    for (int y = -3; y <= 3; y += 3) {
+        for (int x = -3; x <= 3; x += 3) {
             ivec2 other = clamp(at + ivec2(x, y), ivec2(0), ivec2(frame.size) - 1);
             vec2 moments = texelFetch(meanMoments, other, 0).xy;
             light += moments.x;
@@ -35,12 +41,11 @@ void main() {
             taps += 1.0;
         }
     }
-    vec4 mean = texelFetch(meanColor, at, 0);
     float error = sqrt(variance / (taps * max(mean.a, 1.0))) / (light / taps + kDarkest);
     float least = frame.denoising.settleError;
-    float settled = 1.0 - saturate((error - least) / max((kBegin - 1.0) * least, 1.0e-6));
+    float settled = 1.0 - saturate((error - least) / ((kBegin - 1.0) * least));
     float useless = smoothstep(0.5, 1.0, sqrt(filteredVariance / max(variance, 1.0e-12)));
-    float share = least > 0.0 ? max(settled, useless) * smoothstep(kFewFrames, kManyFrames, mean.a) : 0.0;
-    vec3 color = mix(texelFetch(filteredColor, at, 0).rgb, mean.rgb, share);
+    float share = max(settled, useless) * smoothstep(kFewFrames, kManyFrames, mean.a);
+    vec3 color = mix(filtered, mean.rgb, share);
     imageStore(viewportColorOut, at, vec4(storableLight(color), share));
 }
