@@ -68,11 +68,11 @@ glm::dmat4 clipFromCamera(const Camera& camera, glm::dvec2 half, glm::dvec2 shif
 } // namespace
 
 void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::dvec3& anchor, int widthPx,
-               int heightPx, glm::dvec2 jitterPx) {
+               int heightPx, glm::dvec2 jitterPx, double aspect) {
     const glm::dvec3 right(camera.worldFromCamera[0]), up(camera.worldFromCamera[1]),
         back(camera.worldFromCamera[2]);
     const glm::dvec3 position = glm::dvec3(camera.worldFromCamera[3]) - anchor;
-    const double aspect = double(widthPx) / double(heightPx);
+    if (aspect == 0.0) aspect = double(widthPx) / double(heightPx);
     // Half extents of the picture plane: at distance 1, or in metres for orthographic cameras.
     const double halfY = camera.orthographic ? camera.ymagM : std::tan(0.5 * camera.yfovRad);
     const double halfX = halfY * aspect;

@@ -157,6 +157,8 @@ std::optional<Error> Renderer::setSettings(const Settings& settings) {
             impl_->preparePlan();
         }
         impl_->historyReset = "settings";
+        const bool sameExposure = impl_->options.settings.exposureEv100 == before.exposureEv100;
+        if (!sameExposure) impl_->exposureEv100 = impl_->wantedExposureEv100();
         return error;
     } catch (const gpu::DeviceError& error) {
         return Error{error.what()};

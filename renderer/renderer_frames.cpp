@@ -75,7 +75,7 @@ void Renderer::Impl::describeHistory(const shared::FrameConstants& before) {
     constants.previousDepthRow = source.depthRow;
     constants.previousSize = source.size;
     constants.previousTiles = source.tiles;
-    constants.exposureRatio = valid ? constants.exposure / before.exposure : 1.0f;
+    constants.exposureRatio = valid ? constants.exposure / historyExposure : 1.0f;
 }
 
 void Renderer::Impl::describeFrame(std::uint32_t index, glm::ivec2 outputPx, const Camera& now) {
@@ -87,7 +87,9 @@ void Renderer::Impl::describeFrame(std::uint32_t index, glm::ivec2 outputPx, con
     const glm::ivec2 inner =
         glm::max(glm::ivec2(glm::round(glm::dvec2(outputPx) * settings.renderScale)), glm::ivec2(1));
     const shared::FrameConstants before = constants;
-    kilolux::setCamera(constants, now, gpuScene->anchor(), inner.x, inner.y, jitter);
+    // Rounding to whole pixels must not change what the picture shows, or history would slide at every change.
+    kilolux::setCamera(constants, now, gpuScene->anchor(), inner.x, inner.y, jitter,
+                       double(outputPx.x) / double(outputPx.y));
     constants.outputSize = glm::uvec2(outputPx);
     constants.tileChunks = device.isCpu() ? std::max(1u, std::thread::hardware_concurrency()) : 1u;
     constants.frame = index;
@@ -123,7 +125,11 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     updateScene(timeS);
     if (historyReset.empty()) {
         targets->turnHistory();
-        if (!(options.settings.freezeHistory && frozen(index))) targets->turnFilteredHistory();
+        // Frozen at once, it holds the first frame: before that there is nothing to hold.
+        if (historyBegins || !(options.settings.freezeHistory && frozen(index))) {
+            targets->turnFilteredHistory();
+            historyExposure = constants.exposure;
+        }
     }
     describeFrame(index, outputPx, cameraAt(timeS, scene));
     frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
@@ -164,7 +170,8 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
         counted[i] += counts[i];
     if (constants.grid.enabled) gridUse = grid->finishFrame();
     if (lists && plan.writeLists) lists->turn();
-    if (!historyReset.empty()) lastHistoryReset = historyReset;
+    historyBegins = !historyReset.empty();
+    if (historyBegins) lastHistoryReset = historyReset;
     historyReset.clear();
     ++meanFrames;
     ++framesRun;

@@ -16,6 +16,7 @@ struct Renderer::Impl {
     std::optional<Error> prepare(); // once
     std::optional<Error> prepareScene();
     std::optional<Error> preparePlan(); // again whenever the settings change
+    double wantedExposureEv100() const; // of the settings, else of the scene, else metered
     void poisonTargets();
 
     // --- renderer_frames.cpp
@@ -60,6 +61,8 @@ struct Renderer::Impl {
     std::uint32_t meanFrames = 0;             // that the running mean holds
     std::string historyReset = "first frame"; // why there is no history; empty: there is
     std::string lastHistoryReset;             // the last one that happened
+    bool historyBegins = true;                // the last frame found none
+    float historyExposure = 1.0f;             // that the denoiser's history was written with
     bool meanReset = true;                    // something changed that the mean does not survive
     bool lightsDirty = false;                 // setLights() since the last frame
     std::uint64_t lightsEditedRun = 0;        // framesRun of the last edit of a light

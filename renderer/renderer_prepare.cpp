@@ -169,9 +169,7 @@ std::optional<Error> Renderer::Impl::prepareScene() {
     if (!table) return Error{table.error()};
     useLtcTable(std::move(table.value()));
 
-    const bool metered = options.settings.exposureEv100.automatic && !scene.hasExposure;
-    exposureEv100 =
-        metered ? deriveExposureEv100(scene) : options.settings.exposureEv100.valueOr(scene.exposureEv100);
+    exposureEv100 = wantedExposureEv100();
     if (options.settings.tracer == TracerChoice::RayQuery && !device.hasRayQuery()) {
         return Error{fmt::format("device '{}' has no ray query; use tracer=compute", device.name())};
     }
@@ -192,6 +190,12 @@ std::optional<Error> Renderer::Impl::prepareScene() {
 
     world = gpuScene->rayWorld().traceBindings();
     return std::nullopt;
+}
+
+double Renderer::Impl::wantedExposureEv100() const {
+    const AutoNumber& wanted = options.settings.exposureEv100;
+    const bool metered = wanted.automatic && !scene.hasExposure;
+    return metered ? deriveExposureEv100(scene) : wanted.valueOr(scene.exposureEv100);
 }
 
 std::optional<Error> Renderer::Impl::preparePlan() {

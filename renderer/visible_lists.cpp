@@ -15,6 +15,8 @@ VisibleLists::VisibleLists(gpu::Device& device, std::uint32_t widthPx, std::uint
                            {"visibleLists", tiles * LIST_TEXELS * sizeof(glm::uvec2),
                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
                             gpu::MemoryUse::DeviceOnly, "visible lists", VK_FORMAT_R32G32_UINT});
+        // Lists that are frozen from the start are read before any frame has written them.
+        list.upload(std::vector<glm::uvec2>(tiles * LIST_TEXELS));
     }
 }
 

@@ -18,19 +18,20 @@ layout(scalar) readonly buffer PreviousInstances {
     InstanceRows previousInstances[];
 };
 
-// Where the surface point was in the previous frame: uv offset, linear depth. Both uvs come from one expression, so
-// that what stands still under a still camera gets exactly 0.
+// Where the surface point was in the previous frame: uv offset, linear depth. Both uvs come from one expression, and
+// both places of a moving instance from another, so that what stands still under a still camera gets exactly 0.
 vec3 motionOf(uint instanceId, vec3 positionWs, vec3 positionLs) {
     vec3 beforeWs = positionWs;
     if (kMovingInstances && (instances[instanceId].flags & INSTANCE_MOVING) != 0u) {
         InstanceRows rows = previousInstances[instanceId];
         vec4 p = vec4(positionLs, 1.0);
         beforeWs = vec3(dot(rows.row0, p), dot(rows.row1, p), dot(rows.row2, p));
+        positionWs = transformPoint(instances[instanceId], positionLs);
     }
     vec4 now = frame.steadyClipFromWorld * vec4(positionWs, 1.0);
     vec4 before = frame.previousClipFromWorld * vec4(beforeWs, 1.0);
     float depthM = dot(frame.previousDepthRow, vec4(beforeWs, 1.0));
-    if (before.w <= 0.0) return vec3(4.0, 4.0, depthM); // behind the previous camera: far outside its picture
+    if (depthM <= 0.0) return vec3(4.0, 4.0, depthM); // behind the previous camera: far outside its picture
     return vec3(clamp(0.5 * (before.xy / before.w - now.xy / now.w), -4.0, 4.0), depthM);
 }
 
@@ -59,5 +60,6 @@ void main() {
     imageStore(gMaterialOut, at, uvec4(material, 0u, 0u));
     imageStore(gEmissiveOut, at, vec4(emissive, 1.0));
     // Methods without history have no such image: a dummy of one texel stands in.
-    if (all(lessThan(at, imageSize(motionOut)))) imageStore(motionOut, at, vec4(min(moved, vec3(kHalfMax)), 0.0));
+    if (all(lessThan(at, imageSize(motionOut))))
+        imageStore(motionOut, at, vec4(clamp(moved, vec3(-kHalfMax), vec3(kHalfMax)), 0.0));
 }
