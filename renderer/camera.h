@@ -20,8 +20,8 @@ Camera derivedCamera(const Scene& scene, double aspect);
 glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene);
 
 // Fills camera rays, matrices and sizes. `jitterPx` moves the sample position within the pixel, in pixels.
-// Pictures of another shape than the camera's keep its vertical field of view. `aspect`: width / height of the
-// picture that is shown, where the rendered pixels are fewer and their counts rounded; 0 takes theirs.
+// Pictures of another shape than the camera's keep its vertical field of view. `aspect`: width / height of
+// the picture that is shown, where the rendered pixels are fewer and their counts rounded; 0 takes theirs.
 void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::dvec3& anchor, int widthPx,
                int heightPx, glm::dvec2 jitterPx, double aspect = 0.0);
 

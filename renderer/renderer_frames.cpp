@@ -87,7 +87,8 @@ void Renderer::Impl::describeFrame(std::uint32_t index, glm::ivec2 outputPx, con
     const glm::ivec2 inner =
         glm::max(glm::ivec2(glm::round(glm::dvec2(outputPx) * settings.renderScale)), glm::ivec2(1));
     const shared::FrameConstants before = constants;
-    // Rounding to whole pixels must not change what the picture shows, or history would slide at every change.
+    // Rounding to whole pixels must not change what the picture shows, or history would slide at every
+    // change.
     kilolux::setCamera(constants, now, gpuScene->anchor(), inner.x, inner.y, jitter,
                        double(outputPx.x) / double(outputPx.y));
     constants.outputSize = glm::uvec2(outputPx);

@@ -104,7 +104,8 @@ Result<Edits> setField(const Scene& scene, EditTarget target, std::uint64_t id, 
     if (Trs* trs = std::get_if<Trs>(&value); trs && field.kind == FieldKind::Transform) {
         const double length = glm::length(trs->rotation);
         // What is a unit already keeps its digits.
-        if (length > 1e-12 && std::isfinite(length) && std::abs(length - 1.0) > 1e-14) trs->rotation = trs->rotation / length;
+        if (length > 1e-12 && std::isfinite(length) && std::abs(length - 1.0) > 1e-14)
+            trs->rotation = trs->rotation / length;
         const bool isMatrix = std::holds_alternative<glm::dmat4>(field.get(scene, id));
         if (isMatrix) value = matrixFrom(*trs);
     }

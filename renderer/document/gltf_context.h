@@ -118,7 +118,8 @@ std::span<const std::uint8_t> bufferViewBytes(const ImportContext& context, int 
 // Lets tinygltf turn the checked JSON into its structures; no file is touched.
 tinygltf::Model parseModel(const ImportContext& context);
 
-// --- gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_animations.cpp, gltf_scene_extras.cpp, gltf_lights.cpp ---
+// --- gltf_materials.cpp, gltf_meshes.cpp, gltf_nodes.cpp, gltf_animations.cpp, gltf_scene_extras.cpp,
+// gltf_lights.cpp ---
 
 void importMaterials(ImportContext& context, const tinygltf::Model& model);
 void importMeshes(ImportContext& context, const tinygltf::Model& model);

@@ -47,7 +47,8 @@ class DeterminismByProgram : public ProgramTest {
                                                  std::string& device) {
         std::filesystem::remove_all(folder_ / "dump");
         setenv(variable, value, 1);
-        // The driver's cache of compiled shaders does not know vector widths: each value has a cache of its own.
+        // The driver's cache of compiled shaders does not know vector widths: each value has a cache of its
+        // own.
         setenv("XDG_CACHE_HOME", (folder_ / "cache" / value).c_str(), 1);
         std::filesystem::create_directories(folder_ / "cache" / value);
         // Two rays and half resolution: every pass of the method takes part.

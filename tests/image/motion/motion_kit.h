@@ -19,7 +19,7 @@ class FrameRig {
     // the test.
     FrameTargets frame();
     FrameTargets partialFrame(); // the same of a frame that does not fill its targets: not held to be clean
-    void frames(int count); // without reading them
+    void frames(int count);      // without reading them
     Picture picture() const { return renderer_->picture(); }
     Renderer& renderer() { return *renderer_; }
 
