@@ -218,8 +218,8 @@ TEST(PictureChoices, DisabledFiltersGiveTheRawFrame) {
         << "images that nobody reads";
 }
 
-// The mean is that of the raw frames, and the viewport becomes it: after 48 frames with a generous settleError, never
-// with none.
+// The mean is that of the raw frames, and the viewport becomes it: after 48 frames with a generous
+// settleError, never with none.
 TEST(PictureChoices, TheViewportSettlesOnTheMean) {
     const Scene scene = litStage();
     constexpr int kFrames = 48;
