@@ -70,8 +70,10 @@ TEST_F(RepeatByProgram, VectorWidthsGiveTheSameBytes) {
         setenv("LP_NATIVE_VECTOR_WIDTH", width, 1);
         // The driver's cache does not tell widths apart: code of one crashes in a program of another.
         setenv("MESA_SHADER_CACHE_DIR", (folder_ / (std::string("cache") + width)).c_str(), 1);
-        const ProgramRun result = run({"render", scene("cornell"), "--size", "45x30", "--frames", "2", "-o",
-                                       "out.png", "--dump", "dump", "--stats", "stats.json"});
+        // No raster: Mesa 25.0.7's own compiler crashes on its pipelines at 512 bits.
+        const ProgramRun result =
+            run({"render", scene("cornell"), "--size", "45x30", "--frames", "2", "--set", "gbuffer=compute",
+                 "-o", "out.png", "--dump", "dump", "--stats", "stats.json"});
         unsetenv("LP_NATIVE_VECTOR_WIDTH");
         unsetenv("MESA_SHADER_CACHE_DIR");
         ASSERT_EQ(result.exitCode, 0) << result.err;

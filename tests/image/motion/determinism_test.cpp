@@ -51,16 +51,13 @@ class DeterminismByProgram : public ProgramTest {
         // own.
         setenv("XDG_CACHE_HOME", (folder_ / "cache" / value).c_str(), 1);
         std::filesystem::create_directories(folder_ / "cache" / value);
-        // Two rays and half resolution: every pass of the method takes part.
-        const ProgramRun result = run({"render",   scene("cornell"),
-                                       "--size",   "53x37",
-                                       "--method", "stochastic",
-                                       "--frames", "3",
-                                       "--set",    "raysPerPixel=2",
-                                       "--set",    "sampling=checkerboard",
-                                       "--set",    "picture=denoised",
-                                       "-o",       "out.exr",
-                                       "--dump",   "dump",
+        // Two rays and half resolution: every pass of the method takes part. No raster: Mesa 25.0.7's own
+        // compiler crashes on its pipelines at 512 bits.
+        const ProgramRun result = run({"render",   scene("cornell"),   "--size",   "53x37",
+                                       "--method", "stochastic",       "--frames", "3",
+                                       "--set",    "raysPerPixel=2",   "--set",    "sampling=checkerboard",
+                                       "--set",    "picture=denoised", "--set",    "gbuffer=compute",
+                                       "-o",       "out.exr",          "--dump",   "dump",
                                        "--stats",  "stats.json"});
         unsetenv(variable);
         unsetenv("XDG_CACHE_HOME");
