@@ -2,7 +2,6 @@
 // not in the picture is known as missing, and only a cut or other settings begin anew.
 #include "tests/image/motion/motion_kit.h"
 
-#include "shaders/shared/sampling.h"
 #include "tests/unit/accel/scene_kit.h"
 
 namespace kilolux::test {
@@ -93,35 +92,6 @@ TEST(VisibleLists, ArePickedAroundThePreviousPlace) {
     }
     EXPECT_GT(listed, 1000);
     EXPECT_EQ(foreign, 0);
-}
-
-// The first frame's lists are its visible samples and nothing else: slots in order, quarters that were seen.
-TEST(VisibleLists, HoldWhatSamplesSaw) {
-    const Scene scene = stageScene(lightCases());
-    FrameRig rig(scene, stochasticOptions(61, 43, {"raysPerPixel=1"}));
-    const FrameTargets targets = rig.frame();
-    const std::vector<glm::uvec2> lists = rig.renderer().visibleLists();
-    for (int tile = 0; tile < 8 * 6; ++tile) {
-        std::map<std::uint32_t, std::uint32_t> quarters; // by slot
-        for (int i = 0; i < 64; ++i) {
-            const int x = tile % 8 * 8 + i % 8, y = tile / 8 * 8 + i / 8;
-            if (x >= 61 || y >= 43) continue;
-            const std::size_t pixel = std::size_t(y * 61 + x);
-            const std::uint32_t sample = wordAt(targets, "samples", pixel, 0, 4),
-                                result = wordAt(targets, "rayResults", pixel, 0, 1);
-            const bool directional = (sample >> 16 & 3u) == 2u;
-            if ((result & 3u) == 1u && !directional) quarters[sample & 0xffffu] |= 1u << (result >> 2 & 3u);
-        }
-        const std::size_t first = std::size_t(tile) * shared::LIST_TEXELS;
-        ASSERT_EQ(lists[first].x, quarters.size()) << "tile " << tile;
-        std::size_t at = first;
-        for (const auto& [slot, mask] : quarters) {
-            const std::uint32_t word = lists[++at].x;
-            EXPECT_EQ(word & 0xffffu, slot) << "tile " << tile;
-            EXPECT_EQ(word >> 20 & 15u, mask) << "tile " << tile << ", slot " << slot;
-            EXPECT_EQ(word >> 24, 0u) << "neither older quarters nor age";
-        }
-    }
 }
 
 // A picture moved by whole pixels: its light, and how many frames it holds, moved along.
