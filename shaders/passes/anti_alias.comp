@@ -15,6 +15,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gDepth;
 uniform sampler2D sceneColor;
+uniform sampler2D litSpecular; // a: frames that history may hold, kFreeFrames where no light was edited
 uniform sampler2D previousAntiAliased; // filtered linearly
 uniform sampler2D previousPixelMoments;
 layout(rgba16f) writeonly uniform image2D antiAliasedOut;
@@ -25,6 +26,7 @@ const float kMovingFrames = 16.0; // at most where the picture moves: each resam
 const float kMomentFrames = 16.0; // that the deviation over time remembers
 const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
 const float kStillPx = 1.0 / 64.0;
+const float kFreeFrames = 255.0; // as in shade_samples.comp
 
 // Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
 vec4 historySharp(vec2 uv) {
@@ -82,7 +84,11 @@ void main() {
         bool still = max(movedPx.x, movedPx.y) < kStillPx;
         vec4 history = readHistory(still ? texelFetch(previousAntiAliased, at, 0) : historySharp(r.uv));
         vec4 texel = texelFetch(previousPixelMoments, at, 0);
-        if (still) moments = vec3(readMomentHistory(texel).xy, texel.z);
+        // Where a light was just edited the past says nothing of the present, and half of what the denoiser may keep
+        // is kept here: the two follow each other.
+        float allowed = texelFetch(litSpecular, at, 0).a;
+        bool edited = allowed < kFreeFrames;
+        if (still && !edited) moments = vec3(readMomentHistory(texel).xy, texel.z);
         vec3 before = yCoCgFromRgb(history.rgb);
         vec3 hue = abs(before) / max(before.x, 1.0e-6);
         vec3 extent = frame.denoising.antiAliasClip * max(spread, moments.y * hue);
@@ -92,7 +98,8 @@ void main() {
         vec3 clipped = farthest > 1.0 ? mean + (before - mean) / farthest : before;
         float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));
         float most = still ? frame.denoising.antiAliasFrames : min(frame.denoising.antiAliasFrames, kMovingFrames);
-        frames = min(history.a + 1.0, mix(kLeastFrames, most, confidence));
+        if (edited) most = min(most, max(0.5 * allowed, 1.0));
+        frames = min(history.a + 1.0, mix(min(kLeastFrames, most), most, confidence));
         if (still) {
             float count = min(moments.z + 1.0, kMomentFrames), share = 1.0 / count, change = now.x - moments.x;
             float variance = (1.0 - share) * (moments.y * moments.y + share * change * change);

@@ -20,11 +20,11 @@ struct FrameConstants {
     vec3 dirBase;
     vec3 dirStepX;
     vec3 dirStepY;
-    uvec2 size;      // pixels of the sub-rectangle that this frame renders
+    uvec2 size;       // pixels of the sub-rectangle that this frame renders
     uvec2 outputSize; // pixels of the picture that is shown
-    uvec2 tiles;     // of 8 x 8 pixels that cover it
-    uint tileChunks; // runs of workgroups that the device executes side by side (lib/tile_order.glsl)
-    uint frame;      // since the start, for noise
+    uvec2 tiles;      // of 8 x 8 pixels that cover it
+    uint tileChunks;  // runs of workgroups that the device executes side by side (lib/tile_order.glsl)
+    uint frame;       // since the start, for noise
     uint seed;
     uint lightCount;     // slots
     float exposure;      // display value = exposure * luminance [nit]
@@ -51,7 +51,7 @@ KX_CONST float DEPTH_SKY = 3.0e38f; // linear depth of pixels without a surface
 KX_CONST uint COUNTER_RAYS = 0u;
 KX_CONST uint COUNTER_LIGHTS_IN_RANGE = 1u;
 KX_CONST uint COUNTER_SURFACE_PIXELS = 2u;
-KX_CONST uint COUNTER_LIGHTS_TESTED = 3u; // candidates of the pixels' cells
+KX_CONST uint COUNTER_LIGHTS_TESTED = 3u;  // candidates of the pixels' cells
 KX_CONST uint COUNTER_USEFUL_RAYS = 4u;    // rays that met their light
 KX_CONST uint COUNTER_CANDIDATES = 5u;     // lights that pixels evaluated
 KX_CONST uint COUNTER_LIST_ENTRIES = 6u;   // of all visible lists

@@ -10,8 +10,9 @@ KX_CONST uint GRID_TILE_PX = 32u;       // width and height of a fine cell, pixe
 KX_CONST uint GRID_SLICES = 24u;        // in depth: evenly spaced in log2 of linear depth
 KX_CONST uint GRID_COARSE = 4u;         // fine cells along each side of a coarse one
 KX_CONST uint GRID_MAX_LIGHTS = 16384u; // more lights than this are walked without a grid
-KX_CONST uint GRID_GROUP = 64u;         // threads that fill a coarse cell, and then its GRID_COARSE^3 fine ones
-KX_CONST uint GRID_MAX_THREAD_LIGHTS = GRID_MAX_LIGHTS / GRID_GROUP; // longest coarse list that a thread walks alone
+KX_CONST uint GRID_GROUP = 64u; // threads that fill a coarse cell, and then its GRID_COARSE^3 fine ones
+KX_CONST uint GRID_MAX_THREAD_LIGHTS =
+    GRID_MAX_LIGHTS / GRID_GROUP; // longest coarse list that a thread walks alone
 
 struct GridCell {
     uint first;    // into the index list
@@ -34,7 +35,8 @@ struct GridConstants {
     float lastDepthM; // the last slice reaches at least this far
     uint capacity;    // indices
     uint enabled;
-    uint threadLights; // coarse lists up to this long go to the fine cells by a thread each, longer ones by the group
+    uint threadLights; // coarse lists up to this long go to the fine cells by a thread each, longer ones by
+                       // the group
 };
 
 KX_SHARED_END

@@ -1,5 +1,5 @@
-// What the passes of stochastic direct lighting share: the numbers that steer sampling, the packing of samples
-// and of the visible light lists.
+// What the passes of stochastic direct lighting share: the numbers that steer sampling, the packing of
+// samples and of the visible light lists.
 #ifndef KILOLUX_SHARED_SAMPLING_H
 #define KILOLUX_SHARED_SAMPLING_H
 #include "base.h"
@@ -14,20 +14,22 @@ KX_SHARED_BEGIN
 KX_CONST uint SAMPLE_SLOT_MASK = 0xffffu;
 KX_CONST uint SAMPLE_LIST_SHIFT = 16u;
 KX_CONST uint SAMPLE_LIST_MASK = 3u;
-KX_CONST uint SAMPLE_EDITED = 1u << 18u;        // a light that reaches the pixel, or did, was just edited
-KX_CONST uint SAMPLE_EDITED_SHIFT = 24u;        // share of such lights in the pixel's light, 8 bits, rounded up
-KX_CONST uint SAMPLE_MISSED = 1u << 19u;        // reprojection failed
+KX_CONST uint SAMPLE_EDITED = 1u << 18u; // a light that reaches the pixel, or did, was just edited
+KX_CONST uint SAMPLE_EDITED_SHIFT = 24u; // share of such lights in the pixel's light, 8 bits, rounded up
+KX_CONST uint SAMPLE_MISSED = 1u << 19u; // reprojection failed
 KX_CONST uint SAMPLE_RECONSTRUCTED = 1u << 20u; // no neighbour fitted when samples were brought to full size
 KX_CONST uint SAMPLE_LIGHT_LIMIT = 0xffffu;     // slots below this fit
 
 // What became of a sample: R32UI, one layer per ray.
-KX_CONST uint RAY_NONE = 0u;    // nothing was traced: no light, or it is behind the surface
-KX_CONST uint RAY_VISIBLE = 1u; // with the quarter of the light's unit square in the bits from RAY_QUARTER_SHIFT
+KX_CONST uint RAY_NONE = 0u; // nothing was traced: no light, or it is behind the surface
+KX_CONST uint RAY_VISIBLE =
+    1u; // with the quarter of the light's unit square in the bits from RAY_QUARTER_SHIFT
 KX_CONST uint RAY_HIDDEN = 2u;
 KX_CONST uint RAY_STATE_MASK = 3u;
 KX_CONST uint RAY_QUARTER_SHIFT = 2u;
 
-// --- List of rays: a word per ray with a light, x | y << 16 of its pixel, by tiles and in them by light -------
+// --- List of rays: a word per ray with a light, x | y << 16 of its pixel, by tiles and in them by light
+// -------
 KX_CONST uint RAY_TILE_PX = 16u;
 KX_CONST uint RAY_GROUP = 64u; // rays that a workgroup takes
 
@@ -46,7 +48,7 @@ KX_CONST uint LIST_TILE_PX = 8u;
 KX_CONST uint LIST_CAPACITY = 32u;
 KX_CONST uint LIST_TEXELS = 33u;
 KX_CONST uint ENTRY_SLOT_MASK = 0xffffu;
-KX_CONST uint ENTRY_EPOCH_SHIFT = 16u; // 4 bits, as LIGHT_EPOCH_MASK of gpu_light.h
+KX_CONST uint ENTRY_EPOCH_SHIFT = 16u;  // 4 bits, as LIGHT_EPOCH_MASK of gpu_light.h
 KX_CONST uint ENTRY_RECENT_SHIFT = 20u; // quarters seen in the present window of ENTRY_WINDOW frames
 KX_CONST uint ENTRY_OLDER_SHIFT = 24u;  // and in the window before
 KX_CONST uint ENTRY_AGE_SHIFT = 28u;    // frames since a sample of it was last seen, 0 to 15
@@ -56,8 +58,9 @@ KX_CONST uint FRESH_LIGHTS = 8u;
 
 // Settings of the same names; see renderer/settings.cpp for ranges and defaults.
 struct SamplingConstants {
-    uint rays;         // per pixel that is sampled
-    uint choices;      // samples that one evaluation of the candidates yields: rays, or 4 x rays at half resolution
+    uint rays; // per pixel that is sampled
+    uint
+        choices; // samples that one evaluation of the candidates yields: rays, or 4 x rays at half resolution
     uint pixelsPerRay; // 1; 2 or 4: only every so many pixels are sampled, another one each frame
     uint guiding;
     uint areaMasks;
