@@ -15,7 +15,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gDepth;
 uniform sampler2D sceneColor;
-uniform sampler2D litSpecular; // a: frames that history may hold, kFreeFrames where no light was edited
+uniform sampler2D litSpecular; // a: frames that history may hold, HISTORY_FREE_FRAMES where no light was edited
 uniform sampler2D previousAntiAliased; // filtered linearly
 uniform sampler2D previousPixelMoments;
 layout(rgba16f) writeonly uniform image2D antiAliasedOut;
@@ -26,7 +26,6 @@ const float kMovingFrames = 16.0; // at most where the picture moves: each resam
 const float kMomentFrames = 16.0; // that the deviation over time remembers
 const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
 const float kStillPx = 1.0 / 64.0;
-const float kFreeFrames = 255.0; // as in shade_samples.comp
 
 // Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
 vec4 historySharp(vec2 uv) {
@@ -87,7 +86,7 @@ void main() {
         // Where a light was just edited the past says nothing of the present, and half of what the denoiser may keep
         // is kept here: the two follow each other.
         float allowed = texelFetch(litSpecular, at, 0).a;
-        bool edited = allowed < kFreeFrames;
+        bool edited = allowed < HISTORY_FREE_FRAMES;
         if (still && !edited) moments = vec3(readMomentHistory(texel).xy, texel.z);
         vec3 before = yCoCgFromRgb(history.rgb);
         vec3 hue = abs(before) / max(before.x, 1.0e-6);

@@ -212,7 +212,7 @@ void main() {
         vec4 litD = texelFetch(litDiffuse, at, 0), litS = texelFetch(litSpecular, at, 0);
         bool hasHistory = h.weight > 0.0, borrows = litD.a <= 0.0 && !hasHistory;
         Neighbours n = gatherNeighbours(at, before, hasHistory, kSparseNeighbours && !borrows ? 2 : 1);
-        float most = litS.a > 0.0 ? litS.a : 255.0;
+        float most = litS.a > 0.0 ? litS.a : HISTORY_FREE_FRAMES;
         // Highlights do not move with the surface that shows them, the less the smoother it is.
         vec2 movedPx = r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5;
         float roughness = float(texelFetch(gMaterial, at, 0).y & 0xffffu) * (1.0 / 65535.0);

@@ -5,9 +5,8 @@
 // Terms that are zero cost no ray. Output is exposed; diffuse light is demodulated by the diffuse albedo.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
-#include "lib/gbuffer.glsl"
-#include "lib/light_access.glsl"
 #include "lib/light_grid.glsl"
+#include "lib/receiver.glsl"
 #include "lib/trace.glsl"
 #include "math/color.glsl"
 #include "math/hash.glsl"
@@ -18,9 +17,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push {
     uint raysPerLight;
 };
-uniform sampler2D gDepth;
-uniform usampler2D gNormals;
-uniform usampler2D gMaterial;
 layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
 layout(r32ui) writeonly uniform uimage2D lightCountsOut;
@@ -34,52 +30,31 @@ layout(scalar) buffer Counters {
     uint counters[];
 };
 
-// Tries to find a point above the receiver's horizon. Those that never do count as hidden, which loses 0.9^64 =
-// 0.1 % of a light of which a tenth is above; 8 tries lost 43 % of it, and 0.4 % of one that is half above.
-const int kMaxDraws = 64;
-
-struct Receiver {
-    ShadingPoint point;
-    vec3 geoNormalWs;
-    float errorM;
-};
-
 // 1 where nothing is between the receiver and the sampled point.
 float visibility(Receiver receiver, LightSample s, float rayEndBiasM, inout uint rays) {
-    if (dot(receiver.geoNormalWs, s.dirWs) <= 0.0) return 0.0;
-    vec3 origin = offsetRayOrigin(receiver.point.positionWs, receiver.geoNormalWs, s.dirWs, receiver.errorM);
-    // The light's own point must not be met either: end short by the rounding of the distance.
-    float endM = s.distanceM >= KX_INFINITY ? KX_INFINITY
-                                            : s.distanceM * (1.0 - 4.0e-7) - rayEndBiasM - receiver.errorM;
-    if (endM <= 0.0) return 1.0;
+    if (dot(receiver.surface.geoNormalWs, s.dirWs) <= 0.0) return 0.0;
+    Ray ray = shadowRay(receiver, s, rayEndBiasM);
+    if (ray.tMaxM <= 0.0) return 1.0;
     ++rays;
-    return occluded(makeRay(origin, s.dirWs, endM)) ? 0.0 : 1.0;
+    return occluded(ray) ? 0.0 : 1.0;
 }
 
 void main() {
     uvec2 pixel = dispatchedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
-    float depthM = texelFetch(gDepth, at, 0).x;
+    Receiver receiver = loadReceiver(pixel);
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
     uint inRange = 0u, shining = 0u, rays = 0u;
-    if (depthM < DEPTH_SKY) {
-        Surface surface = unpackSurface(texelFetch(gNormals, at, 0).xy, texelFetch(gMaterial, at, 0).xy);
-        CameraRay camera = cameraRay(pixel);
-        vec3 viewDirWs = -normalize(camera.dir);
-        vec3 positionWs = camera.originWs + camera.dir * depthM;
-        float distanceM = depthM * length(camera.dir);
-        float errorM = frame.rasterized != 0u ? rasterPositionErrorM(positionWs, distanceM, frame.pixelAngleRad)
-                                              : positionErrorM(positionWs) + 7.5e-7 * distanceM;
-        Receiver receiver = Receiver(makeShadingPoint(positionWs, surface.normalWs, viewDirWs, surface.roughness),
-                                     surface.geoNormalWs, errorM);
+    if (receiver.exists) {
+        vec3 positionWs = receiver.point.positionWs;
         LtcLobe lobe = makeLtcLobe(receiver.point);
-        vec3 f0 = specularF0(surface);
+        vec3 f0 = specularF0(receiver.surface);
         uint seed = pixelSeed(pixel, frame.frame, frame.seed);
         // The grid's lists are sorted by slot, so that sums come out the same without a grid.
         bool gridded = frame.grid.enabled != 0u;
         GridCell cell = GridCell(0u, frame.lightCount, 0u);
-        if (gridded) cell = gridCells[gridCellOfPixel(pixel, depthM)];
+        if (gridded) cell = gridCells[gridCellOfPixel(pixel, receiver.depthM)];
         for (uint i = 0u; i < cell.count; ++i) {
             uint slot = gridded ? gridIndices[cell.first + i] : i;
             LightHot light = loadLightHot(slot);
@@ -110,7 +85,7 @@ void main() {
                 float visible = visibility(receiver, s, rayEndBiasM, rays);
                 sumVisible += visible;
                 if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) {
-                    BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, viewDirWs, receiver.point.noV,
+                    BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, receiver.point.viewDirWs, receiver.point.noV,
                                                            s.dirWs, receiver.point.alpha);
                     sumDiffuseSpecular += visible * s.geometry * vec3(brdf.diffuse, brdf.specular);
                 }

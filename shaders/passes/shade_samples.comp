@@ -20,7 +20,7 @@ void main() {
     if (!isInPicture(pixel)) return;
     SamplingConstants how = frame.sampling;
     vec3 diffuse = vec3(0.0), specular = vec3(0.0);
-    vec2 state = vec2(0.0, kFreeFrames);
+    vec2 state = vec2(0.0, HISTORY_FREE_FRAMES);
     Receiver receiver = loadReceiver(pixel);
     if (receiver.exists) {
         LtcLobe lobe;

@@ -6,6 +6,8 @@
 
 KX_SHARED_BEGIN
 
+KX_CONST float HISTORY_FREE_FRAMES = 255.0f; // of a pixel whose light was not edited: no limit of its own
+
 struct DenoisingConstants {
     float diffuseFrames; // that a history holds at most
     float specularFrames;
