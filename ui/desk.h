@@ -1,0 +1,132 @@
+// The desk: everything that the UI thread owns. Panels are free functions drawX(Desk&), one file each, called
+// once per UI frame; there are no globals. The document changes only through Desk::session.
+#pragma once
+
+#include "renderer/document/edit_session.h"
+#include "renderer/settings.h"
+#include "ui/render_thread.h"
+#include "ui/viewport.h"
+#include "ui/viewport_camera.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace kilolux {
+
+struct FileTasks; // file_dialogs.h
+// What panels remember between frames; each is defined in its panel's files and made by it on first use.
+struct LightListState;
+struct PropertiesState;
+struct GizmoState;
+struct ClipboardState;
+struct ViewPanelState;
+struct ProbeState;
+struct ReferenceState;
+struct StatisticsState;
+
+enum class Tool { Select, Move, Rotate, Scale };
+enum class GizmoSpace { World, Local, View };
+
+struct Snapping {
+    bool always = false; // without Ctrl held
+    double moveM = 0.1;
+    double angleDeg = 5.0;
+    double scale = 0.1;
+};
+
+struct PanelVisibility {
+    bool all = true; // Tab
+    bool lights = true;
+    bool properties = true;
+    bool statistics = false;
+    bool outlines = true; // of lights in the viewport
+    bool gizmos = true;
+};
+
+// What the program says to the user; errors stay until closed, others fade.
+struct Notice {
+    enum class Kind { Info, Warning, Error } kind = Kind::Info;
+    std::string text;
+    double shownUntilS = 0.0; // of Desk::nowS
+};
+
+struct DeskOptions {
+    std::string scene;         // empty: the first-run state
+    std::string stateFile;     // for tests: what dumpState() writes after every UI frame; empty: nowhere
+    int width = 0, height = 0; // pixels of the window; 0: as remembered
+};
+
+struct Desk {
+    // --- document
+    std::unique_ptr<EditSession> session; // null: nothing is open
+    std::vector<std::uint64_t> selection; // LightNode::id, sorted; all exist (pruned before panels are drawn)
+
+    // --- view
+    ViewportCamera camera; // where the next picture looks from
+    Viewport viewport;     // where the shown picture stands, and its own camera
+    std::string view;      // one of Renderer::views(); empty: the picture
+    double exposureEv100 = 0.0;
+    Settings settings;
+    RenderLimits limits;
+
+    // --- tools
+    Tool tool = Tool::Move;
+    GizmoSpace space = GizmoSpace::World;
+    Snapping snapping;
+    double gizmoSizePx = 88.0; // length of a move arrow, unscaled pixels
+    bool pointerTaken = false; // a gizmo or marquee holds the pointer: the camera leaves it alone
+
+    // --- window
+    PanelVisibility panels;
+    double uiScale = 1.0; // of fonts and spacing; 1 on a screen of 1080 lines
+    double nowS = 0.0;    // since the start
+    std::vector<Notice> notices;
+    bool wantsQuit = false;
+
+    // --- rendering
+    RenderThread* renderThread = nullptr;    // never null in a running window
+    std::shared_ptr<const ShownFrame> shown; // the last finished picture; null: none yet
+
+    // --- panels
+    std::shared_ptr<FileTasks> files; // open, save, recover
+    std::shared_ptr<LightListState> lightList;
+    std::shared_ptr<PropertiesState> properties;
+    std::shared_ptr<GizmoState> gizmo;
+    std::shared_ptr<ClipboardState> clipboard;
+    std::shared_ptr<ViewPanelState> viewPanel;
+    std::shared_ptr<ProbeState> probe;
+    std::shared_ptr<ReferenceState> reference;
+    std::shared_ptr<StatisticsState> statisticsPanel;
+
+    const Scene* scene() const { return session ? &session->scene() : nullptr; }
+    bool isSelected(std::uint64_t light) const;
+};
+
+// --- edits. Each tells the user when it fails, and changes nothing then; true: it was done.
+
+// `mergeKey`: edits with one key that follow each other are one step; endDrag() closes it.
+bool applyEdits(Desk& desk, const Result<Edits>& edits, std::string name, std::string mergeKey = "");
+void endDrag(Desk& desk);
+void cancelDrag(Desk& desk);
+bool undo(Desk& desk);
+bool redo(Desk& desk);
+
+// --- selection
+
+enum class Selecting { Replace, Add, Toggle };
+void select(Desk& desk, const std::vector<std::uint64_t>& lights, Selecting how = Selecting::Replace);
+// Moves the camera so that the selected lights fill the viewport; without any, the whole scene.
+void frameSelection(Desk& desk);
+
+// --- view. These reach the render thread.
+
+void moveCamera(Desk& desk); // after Desk::camera changed
+void cutCamera(Desk& desk, const Camera& camera);
+void setView(Desk& desk, std::string view);
+void setExposure(Desk& desk, double ev100); // also an edit of the document
+void setSettings(Desk& desk, const Settings& settings);
+
+void notify(Desk& desk, Notice::Kind kind, std::string text);
+
+} // namespace kilolux

@@ -1,0 +1,43 @@
+// Every panel and overlay, each in a file of its own. The layout (layout.cpp) has opened the region that a
+// panel draws into; overlays draw onto the picture, clipped to the viewport.
+#pragma once
+
+#include "ui/desk.h"
+
+#include <string>
+
+struct ImDrawList;
+
+namespace kilolux {
+
+// --- bars
+void drawTopBar(Desk& desk);
+void drawStatusLine(Desk& desk);
+
+// --- left column
+void drawLightList(Desk& desk);
+
+// --- right column, one tab each
+void drawProperties(Desk& desk);
+void drawViewPanel(Desk& desk);       // view selector, legend, exposure, reference image
+void drawProbePanel(Desk& desk);      // lights at a pixel, light meter
+void drawStatisticsPanel(Desk& desk); // passes, memory, features
+
+// --- on the picture, in this order. They set Desk::pointerTaken while they hold the pointer.
+void drawLightOutlines(Desk& desk, ImDrawList& canvas);
+void drawGizmos(Desk& desk, ImDrawList& canvas);
+void drawProbeOverlay(Desk& desk, ImDrawList& canvas);
+void drawReferenceOverlay(Desk& desk, ImDrawList& canvas); // stored image, split view
+void pickLights(Desk& desk, ImDrawList& canvas); // click and marquee; after all who may take the pointer
+
+// Keys of conventions.md, once per frame; called only while no text is being typed.
+void handleViewKeys(Desk& desk);  // 1 to 9
+void handleLightKeys(Desk& desk); // Q W E R X H Shift+S L Ctrl+D Ctrl+C Ctrl+V Del Esc
+
+// --- for tests: what a panel adds to the state that Desk::stateFile gets, one JSON object a panel
+std::string lightListState(const Desk& desk);
+std::string propertiesState(const Desk& desk);
+std::string gizmoState(const Desk& desk);
+std::string viewPanelState(const Desk& desk);
+
+} // namespace kilolux
