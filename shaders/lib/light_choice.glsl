@@ -1,0 +1,134 @@
+// What a pixel may choose its lights from, and how likely each is: all of a visible list of the previous frame, the
+// fresh ones, and every N-th of the grid's cell, weighted by what they would give unshadowed (the MegaLights talk,
+// SIGGRAPH 2025: "Sample Guiding", "Hidden Lights", "Sampling Lights"). sample_lights chooses by it, probe shows it.
+#ifndef KILOLUX_LIB_LIGHT_CHOICE_GLSL
+#define KILOLUX_LIB_LIGHT_CHOICE_GLSL
+#include "light_grid.glsl"
+#include "noise.glsl"
+#include "receiver.glsl"
+#include "reprojection.glsl"
+#include "sample.glsl"
+#include "sampled_pixel.glsl"
+#include "visible_list.glsl"
+#include "../math/selection.glsl"
+
+layout(constant_id = CHOICE_HALF_SAMPLING) const int kHalfSampling = HALF_OFF;
+
+uniform sampler2D previousDepth;
+uniform usamplerBuffer visibleLists; // RG32UI, of the previous frame
+layout(scalar) readonly buffer GridCells {
+    GridCell gridCells[];
+};
+uniform usamplerBuffer gridIndices; // R32UI
+layout(scalar) readonly buffer DirectionalSlots {
+    uint directionalSlots[];
+};
+
+uint visibleAt; // texel of the list's first entry
+uint visibleCount;
+uint cellFirst;
+uint cellCount;
+bool gridded;
+
+uint fetchVisibleLight(uint at) {
+    return texelFetch(visibleLists, int(visibleAt + at)).x & ENTRY_SLOT_MASK;
+}
+uint fetchFreshLight(uint at) {
+    return at < 4u ? frame.sampling.fresh0[at] : frame.sampling.fresh1[at - 4u];
+}
+uint fetchCellLight(uint at) {
+    return gridded ? texelFetch(gridIndices, int(cellFirst + at)).x : at;
+}
+#include "../math/light_walk.glsl"
+
+// The item that a candidate is known by: the slot, and above it the mask of its visible quarters.
+const uint ITEM_MASK_SHIFT = 16u;
+
+// The includer's: what looks at each candidate. `weight` is that before the threshold and the stride.
+void seeCandidate(Candidate c, float weight);
+
+// The mask that an entry gives a light: none where it is not to be trusted.
+uint maskOfEntry(VisibleEntry entry, LightHot light) {
+    bool current = entry.epoch == (light.typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK);
+    return current && frame.sampling.areaMasks != 0u ? entry.recent | entry.older : 0u;
+}
+
+// Beside the selection: what was decided on the way.
+struct ChoiceState {
+    SelectionBudget budget;
+    PixelNoise noise;
+    uint stride; // the N of every N-th light of the cell
+    uint candidates;
+    uint flags; // SAMPLE_*
+};
+
+// Walks the candidates of a pixel that has a surface. `stored`: the texel that holds its samples.
+ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout LightSelection selection) {
+    ChoiceState state;
+    SamplingConstants how = frame.sampling;
+    bool atHalf = kHalfSampling != HALF_OFF;
+    uint seed = pixelSeed(pixel, how.noiseFrame, frame.seed);
+    Reprojection before = reproject(pixel);
+    float foundM = texelFetch(previousDepth, ivec2(before.uv * vec2(frame.previousSize)), 0).x;
+    float cosView = dot(receiver.surface.geoNormalWs, receiver.point.viewDirWs);
+    bool missed = !before.onScreen || !sameDepth(foundM, before.depthM, cosView);
+
+    uint first = listTexelByChance(before.uv, whiteNoise2(seed, 8u));
+    visibleCount = how.guiding != 0u && frame.historyValid != 0u ? texelFetch(visibleLists, int(first)).x : 0u;
+    visibleCount = min(visibleCount, LIST_CAPACITY);
+    visibleAt = first + 1u;
+    gridded = frame.grid.enabled != 0u;
+    GridCell cell = GridCell(0u, frame.lightCount, 0u);
+    if (gridded) cell = gridCells[gridCellOfPixel(pixel, receiver.depthM)];
+    cellFirst = cell.first;
+    cellCount = cell.count;
+    state.stride = cellStride(cell.count, missed ? how.missCandidates : how.cellCandidates);
+    uint offset = cellOffset(whiteNoise1(seed, 9u), state.stride);
+
+    state.noise = pixelNoise(stored, how.noiseFrame, frame.seed);
+    selection = beginSelection(state.noise.numbers, how.choices);
+    float albedo = luminance(diffuseAlbedo(receiver.surface)), f0 = luminance(specularF0(receiver.surface));
+    LightWalk walk = beginWalk(visibleCount, how.freshCount, cell.count, state.stride, offset);
+    // All and edited ones of what the list says there was, and of what its lights and the fresh ones may give now.
+    vec2 listed = vec2(0.0), likely = vec2(0.0);
+    state.candidates = 0u;
+    for (uint sun = 0u;; ++sun) {
+        bool directional = kDirectionalLights && sun < how.directionalCount;
+        if (!directional && !nextLight(walk)) break;
+        uint slot = directional ? directionalSlots[sun] : walk.slot;
+        if (slot >= frame.lightCount) continue; // a foreign list
+        LightHot light = loadOwnLightHot(slot);
+        bool isEdited = (light.typeFlags & LIGHT_FLAG_EDITED) != 0u;
+        uint mask = 0u;
+        if (walk.maskEntry != KX_NO_LIGHT && !directional) {
+            uvec2 entry = texelFetch(visibleLists, int(visibleAt + walk.maskEntry)).xy;
+            float energy = float(entry.y);
+            listed += vec2(energy, isEdited ? energy : 0.0);
+            mask = maskOfEntry(unpackEntry(entry.x), light);
+        }
+        if (kDirectionalLights && !directional && lightType(light) == LIGHT_DIRECTIONAL) continue;
+        float unshadowed = lightWeight(light, receiver.point, albedo, f0);
+        float weight = perceptualWeight(unshadowed, frame.exposure);
+        // What is nothing here may be something at a neighbour that takes this pixel's choice.
+        if (atHalf && lightReaches(light, receiver.point.positionWs))
+            weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));
+        uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
+        if (list != LIST_HIDDEN) likely += vec2(weight, isEdited ? weight : 0.0);
+        float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
+        Candidate candidate = makeCandidate(slot | mask << ITEM_MASK_SHIFT, list, weight, state.stride, how.dimThreshold,
+                                            how.dimMode, dimNumber);
+        seeCandidate(candidate, weight);
+        selectionAdd(selection, candidate);
+        ++state.candidates;
+    }
+
+    state.budget = SelectionBudget(missed ? how.missHiddenShare : how.hiddenShare, how.hiddenRelaxedBelow,
+                                   how.directionalShare, how.directionalFreeBelow);
+    float editedShare = max(listed.y / max(listed.x, 1.0e-20), likely.y / max(likely.x, 1.0e-20));
+    state.flags = missed ? SAMPLE_MISSED : 0u;
+    if (editedShare > 0.0)
+        state.flags |= SAMPLE_EDITED | uint(ceil(min(editedShare, 1.0) * 255.0)) << SAMPLE_EDITED_SHIFT;
+    return state;
+}
+
+#endif
