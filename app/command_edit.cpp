@@ -1,10 +1,10 @@
-// kilolux edit: applies a list of edits to a scene without a window, and says what there is instead of the
-// window until the window exists.
+// kilolux edit: the window, or a list of edits applied to a scene without it.
 #include "app/choices.h"
 #include "app/commands.h"
 
 #include "renderer/document/edit_script.h"
 #include "renderer/document/file_replace.h"
+#include "ui/window.h"
 
 #include <fmt/format.h>
 #include <memory>
@@ -18,6 +18,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kFooter = R"(Examples:
+  kilolux edit scene.glb                              open it in the window
   kilolux edit scene.glb --do edits.json              change the file itself
   kilolux edit scene.glb --do edits.json -o new.glb   leave it as it is
   kilolux edit --list                                 every field that can be edited
@@ -25,6 +26,8 @@ The list of edits is described in renderer/document/edits.md.)";
 
 struct EditOptions {
     std::string scene, script, output;
+    std::string state, size;
+    double uiScale = 0.0;
     bool list = false;
     bool json = false;
 };
@@ -125,6 +128,21 @@ ExitCode applyScript(const EditOptions& options) {
     return ExitCode::Done;
 }
 
+ExitCode openWindow(const EditOptions& options) {
+    WindowOptions window;
+    window.scene = options.scene;
+    window.stateFile = options.state;
+    window.uiScale = options.uiScale;
+    if (!options.size.empty()) {
+        const Result<PictureSize> size = parsePictureSize(options.size);
+        if (!size) return printError(size.error()), ExitCode::BadInput;
+        window.width = size.value().width;
+        window.height = size.value().height;
+    }
+    if (const auto error = runWindow(window)) return printError(error->message), ExitCode::CouldNotWork;
+    return ExitCode::Done;
+}
+
 ExitCode runEdit(const EditOptions& options) {
     if (options.list) {
         fmt::print("{}", listFields(options.json ? ListFormat::Json : ListFormat::Text));
@@ -135,17 +153,13 @@ ExitCode runEdit(const EditOptions& options) {
         printError("expected a scene to edit: kilolux edit SCENE.glb --do " + options.script);
         return ExitCode::BadInput;
     }
-    const std::string name = options.scene.empty() ? "SCENE.glb" : "'" + options.scene + "'";
-    printError("the window does not exist yet; render to a file instead: kilolux render " + name +
-               " -o OUT.png");
-    return ExitCode::CouldNotWork;
+    return openWindow(options);
 }
 
 } // namespace
 
 Command addEditCommand(CLI::App& app) {
-    CLI::App* edit =
-        app.add_subcommand("edit", "Edit a scene: in the window (not there yet), or by a list of edits");
+    CLI::App* edit = app.add_subcommand("edit", "Edit a scene: in the window, or by a list of edits");
     auto options = std::make_shared<EditOptions>();
     edit->footer(kFooter);
     edit->add_option("SCENE", options->scene, "a .gltf or .glb file");
@@ -154,9 +168,20 @@ Command addEditCommand(CLI::App& app) {
     edit->add_option("-o,--output", options->output, "save here instead of in place")
         ->option_text("OUT")
         ->needs(script);
+    edit->add_option("--state", options->state, "write what the window shows as JSON, for tests and scripts")
+        ->option_text("FILE");
+    edit->add_option("--size", options->size, "of the window, in pixels")->option_text("WxH");
+    edit->add_option("--ui-scale", options->uiScale, "of fonts and spacing; by the screen without it")
+        ->check(CLI::Range(0.5, 4.0));
     CLI::Option* list = edit->add_flag("--list", options->list, "list the fields that can be edited");
     edit->add_flag("--json", options->json, "with --list: as JSON")->needs(list);
     return [options] { return runEdit(*options); };
+}
+
+ExitCode runWindowCommand(const std::string& scene) {
+    EditOptions options;
+    options.scene = scene;
+    return openWindow(options);
 }
 
 } // namespace kilolux

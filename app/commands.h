@@ -6,6 +6,7 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <string>
 
 namespace kilolux {
 
@@ -14,7 +15,10 @@ using Command = std::function<ExitCode()>;
 // kilolux render SCENE -o OUT: a picture, statistics and targets to files.
 Command addRenderCommand(CLI::App& app);
 
-// kilolux edit [SCENE]: the window.
+// kilolux edit [SCENE]: the window, or a list of edits.
 Command addEditCommand(CLI::App& app);
+
+// kilolux [SCENE]: the window. Without a scene it tells how to begin.
+ExitCode runWindowCommand(const std::string& scene);
 
 } // namespace kilolux

@@ -16,6 +16,7 @@ namespace kilolux {
 namespace {
 
 constexpr const char* kHelpFooter = R"(Start with:
+  kilolux SCENE.glb                    the window
   kilolux render SCENE.glb -o OUT.png
   kilolux render --help
 
@@ -26,17 +27,13 @@ const CLI::App& chosenCommand(const CLI::App& app) {
     return chosen.empty() ? app : *chosen.front();
 }
 
+bool isSceneName(const std::string& text) {
+    return text.ends_with(".glb") || text.ends_with(".gltf");
+}
+
 // A mistyped option or command is told the nearest known one.
-std::string argumentError(const CLI::App& app, const CLI::ParseError& error) {
-    const CLI::App& command = chosenCommand(app);
-    const std::string help = fmt::format(
-        "see '{} --help'", command.get_parent() ? "kilolux " + command.get_name() : std::string("kilolux"));
-    const std::vector<std::string> unknown = app.remaining(true);
-    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) || unknown.empty())
-        return fmt::format("{} ({})", error.what(), help);
-    const std::string& argument = unknown.front();
-    if (!command.get_parent() && (argument.ends_with(".glb") || argument.ends_with(".gltf")))
-        return fmt::format("say what to do with '{0}': kilolux render '{0}' -o OUT.png", argument);
+std::string unexpectedArgument(const CLI::App& command, const std::string& argument,
+                               const std::string& help) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames())
@@ -49,6 +46,21 @@ std::string argumentError(const CLI::App& app, const CLI::ParseError& error) {
     return fmt::format("unexpected argument '{}'{} ({})", argument, meant, help);
 }
 
+std::string helpHint(const CLI::App& command) {
+    return fmt::format("see '{} --help'",
+                       command.get_parent() ? "kilolux " + command.get_name() : std::string("kilolux"));
+}
+
+// `scene`: what stands where a scene to open would.
+std::string argumentError(const CLI::App& app, const CLI::ParseError& error, const std::string& scene) {
+    const CLI::App& command = chosenCommand(app);
+    const std::vector<std::string> unknown = app.remaining(true);
+    if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) || unknown.empty())
+        return fmt::format("{} ({})", error.what(), helpHint(command));
+    const bool sceneIsWrong = !scene.empty() && !isSceneName(scene);
+    return unexpectedArgument(command, sceneIsWrong ? scene : unknown.front(), helpHint(command));
+}
+
 ExitCode runCommandLine(int argc, char** argv) {
     CLI::App app{"Kilolux, a lighting tool for scenes with very many shadowed area lights.", "kilolux"};
     app.footer(kHelpFooter);
@@ -59,6 +71,8 @@ ExitCode runCommandLine(int argc, char** argv) {
     app.add_flag("--list", list, "list methods, views and settings");
     app.add_flag("--json", json, "with --list: as JSON")->needs("--list");
     app.require_subcommand(0, 1);
+    std::string scene;
+    app.add_option("SCENE", scene, "a .gltf or .glb file to open in the window");
     const Command render = addRenderCommand(app);
     const Command edit = addEditCommand(app);
     try {
@@ -69,14 +83,20 @@ ExitCode runCommandLine(int argc, char** argv) {
             app.exit(error);
             return ExitCode::Done;
         }
-        printError(argumentError(app, error));
+        printError(argumentError(app, error, scene));
         return ExitCode::BadInput;
     }
     if (list) {
         fmt::print("{}", listChoices(json ? ListFormat::Json : ListFormat::Text));
         return ExitCode::Done;
     }
-    return app.got_subcommand("render") ? render() : edit();
+    if (app.got_subcommand("render")) return render();
+    if (app.got_subcommand("edit")) return edit();
+    if (!scene.empty() && !isSceneName(scene)) {
+        printError(unexpectedArgument(app, scene, helpHint(app)));
+        return ExitCode::BadInput;
+    }
+    return runWindowCommand(scene);
 }
 
 } // namespace

@@ -165,6 +165,43 @@ std::optional<Error> Renderer::setSettings(const Settings& settings) {
     }
 }
 
+std::optional<Error> Renderer::setView(const std::string& view) {
+    const std::string before = std::exchange(impl_->options.view, view);
+    try {
+        std::optional<Error> error = impl_->preparePlan();
+        if (error) {
+            impl_->options.view = before;
+            impl_->preparePlan();
+        }
+        impl_->historyReset = "view";
+        return error;
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+std::optional<Error> Renderer::resize(int width, int height) {
+    impl_->options.width = width;
+    impl_->options.height = height;
+    try {
+        // Pipelines stay, unless another size wants another producer.
+        const bool samePasses = impl_->wantedProducer() == impl_->plan.producer;
+        if (samePasses) impl_->makeTargets();
+        impl_->historyReset = "size of the picture";
+        return samePasses ? std::nullopt : impl_->preparePlan();
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+std::uint32_t Renderer::meanFrames() const {
+    return impl_->meanFrames;
+}
+
+std::vector<std::byte> Renderer::displayPixels() const {
+    return impl_->targets->display.download();
+}
+
 std::vector<glm::uvec2> Renderer::visibleLists() const {
     return impl_->lists ? impl_->lists->readPrevious() : std::vector<glm::uvec2>{};
 }

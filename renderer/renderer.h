@@ -83,6 +83,8 @@ class Renderer {
 
     std::optional<Error> renderFrame(); // the next one; the first compiles
     Picture picture() const;            // of the last frame
+    // The last frame as the display shows it: sRGB, 4 bytes a pixel. Cheaper than picture().
+    std::vector<std::byte> displayPixels() const;
     enum class CameraChange { Move, Cut };
     void setCamera(const Camera& camera, CameraChange change);
     // Takes over lights, their definitions and groups, and the nodes' transforms from an edited copy of the
@@ -92,6 +94,12 @@ class Renderer {
     void setRenderScale(double scale); // 0.1 to 1 of the picture's width and height
     // Any other settings; history and targets begin anew. On error the old ones stay.
     std::optional<Error> setSettings(const Settings& settings);
+    // One of views(); history begins anew. On error the old one stays.
+    std::optional<Error> setView(const std::string& view);
+    // Pictures of another size, in pixels; history begins anew.
+    std::optional<Error> resize(int width, int height);
+    // Frames that the running mean holds: it begins anew with every change of what it averages.
+    std::uint32_t meanFrames() const;
 
     // For tests: the visible light lists that the next frame finds, LIST_TEXELS texels a tile
     // (shared/sampling.h).

@@ -16,6 +16,8 @@ struct Renderer::Impl {
     std::optional<Error> prepare(); // once
     std::optional<Error> prepareScene();
     std::optional<Error> preparePlan(); // again whenever the settings change
+    void makeTargets();                 // again whenever the size changes as well
+    GBufferProducer wantedProducer() const;
     double wantedExposureEv100() const; // of the settings, else of the scene, else metered
     void poisonTargets();
 

@@ -198,6 +198,11 @@ double Renderer::Impl::wantedExposureEv100() const {
     return metered ? deriveExposureEv100(scene) : wanted.valueOr(scene.exposureEv100);
 }
 
+GBufferProducer Renderer::Impl::wantedProducer() const {
+    return chooseProducer(options.settings, device, gpuScene->triangles(),
+                          std::size_t(options.width) * std::size_t(options.height));
+}
+
 std::optional<Error> Renderer::Impl::preparePlan() {
     const std::optional<int> view = indexOfChoice(viewChoices(), options.view);
     const std::optional<int> method = indexOfChoice(methodChoices(), options.method);
@@ -208,8 +213,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
                                  viewChoices()[std::size_t(*view)].name,
                                  methodChoices()[std::size_t(*method)].name)};
     }
-    plan.producer = chooseProducer(options.settings, device, gpuScene->triangles(),
-                                   std::size_t(options.width) * std::size_t(options.height));
+    plan.producer = wantedProducer();
     plan.method = Method(*method);
     plan.view = *view;
     plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
@@ -224,7 +228,6 @@ std::optional<Error> Renderer::Impl::preparePlan() {
         options.settings.toneMap == ToneMap::None ? shared::TONE_MAP_NONE : shared::TONE_MAP_NEUTRAL;
     features[shared::CHOICE_VIEW] = std::uint32_t(plan.view);
 
-    const std::uint32_t width = std::uint32_t(options.width), height = std::uint32_t(options.height);
     constants.sampling = samplingConstants(options.settings);
     features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
     features[shared::CHOICE_HALF_SAMPLING] = std::uint32_t(options.settings.sampling);
@@ -236,6 +239,23 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     planFilters(plan, options.settings);
     features[shared::CHOICE_COUNT_SAMPLES] = plan.stochastic();
     features[shared::CHOICE_SPARSE_NEIGHBOURS] = device.isCpu();
+    if (plan.stochastic()) {
+        if (gpuScene->lightCount() > shared::SAMPLE_LIGHT_LIMIT) {
+            return Error{fmt::format("{}: {} lights; the stochastic method takes up to {}",
+                                     scene.sourcePath.string(), gpuScene->lightCount(),
+                                     shared::SAMPLE_LIGHT_LIMIT)};
+        }
+        Result<gpu::Image> mask = uploadNoise(device);
+        if (!mask) return Error{mask.error()};
+        noise = std::move(mask.value());
+    }
+    makeTargets();
+    passes = std::make_unique<FramePasses>(resources, plan);
+    return std::nullopt;
+}
+
+void Renderer::Impl::makeTargets() {
+    const std::uint32_t width = std::uint32_t(options.width), height = std::uint32_t(options.height);
     TargetNeeds needs;
     needs.raster = plan.producer == GBufferProducer::Raster;
     needs.debugView = plan.view != shared::VIEW_FINAL;
@@ -251,23 +271,13 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     needs.settled = plan.settle;
     targets = std::make_unique<Targets>(device, width, height, needs);
     if (plan.stochastic()) {
-        if (gpuScene->lightCount() > shared::SAMPLE_LIGHT_LIMIT) {
-            return Error{fmt::format("{}: {} lights; the stochastic method takes up to {}",
-                                     scene.sourcePath.string(), gpuScene->lightCount(),
-                                     shared::SAMPLE_LIGHT_LIMIT)};
-        }
         lists = std::make_unique<VisibleLists>(device, width, height);
         if (plan.compactRays)
             rayList = std::make_unique<RayList>(device, width, height, constants.sampling.rays);
-        Result<gpu::Image> mask = uploadNoise(device);
-        if (!mask) return Error{mask.error()};
-        noise = std::move(mask.value());
     }
     if (options.poisonTargets) poisonTargets();
-    passes = std::make_unique<FramePasses>(resources, plan);
     grid = std::make_unique<LightGrid>(device, width, height, gpuScene->lightCount());
     if (options.gridRoom) grid->limitFineIndices(*options.gridRoom);
-    return std::nullopt;
 }
 
 void Renderer::Impl::poisonTargets() {

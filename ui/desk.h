@@ -8,13 +8,14 @@
 #include "ui/viewport.h"
 #include "ui/viewport_camera.h"
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace kilolux {
 
-struct FileTasks; // file_dialogs.h
+struct FileTasks; // file_tasks.h
 // What panels remember between frames; each is defined in its panel's files and made by it on first use.
 struct LightListState;
 struct PropertiesState;
@@ -51,12 +52,6 @@ struct Notice {
     double shownUntilS = 0.0; // of Desk::nowS
 };
 
-struct DeskOptions {
-    std::string scene;         // empty: the first-run state
-    std::string stateFile;     // for tests: what dumpState() writes after every UI frame; empty: nowhere
-    int width = 0, height = 0; // pixels of the window; 0: as remembered
-};
-
 struct Desk {
     // --- document
     std::unique_ptr<EditSession> session; // null: nothing is open
@@ -67,6 +62,7 @@ struct Desk {
     Viewport viewport;     // where the shown picture stands, and its own camera
     std::string view;      // one of Renderer::views(); empty: the picture
     double exposureEv100 = 0.0;
+    std::optional<double> meteredEv100; // of a scene that names no exposure, once the renderer has found it
     Settings settings;
     RenderLimits limits;
 
@@ -76,13 +72,21 @@ struct Desk {
     Snapping snapping;
     double gizmoSizePx = 88.0; // length of a move arrow, unscaled pixels
     bool pointerTaken = false; // a gizmo or marquee holds the pointer: the camera leaves it alone
+    int cameraHold = 0;        // of camera_control.cpp
+    bool flying = false;       // the right button is held: letters fly and choose no tools
+    double flySpeedMs = 2.0;   // metres a second
 
     // --- window
     PanelVisibility panels;
     double uiScale = 1.0; // of fonts and spacing; 1 on a screen of 1080 lines
     double nowS = 0.0;    // since the start
+    double inputMs = 0.0; // steadyMs() of the newest event that this frame answers
     std::vector<Notice> notices;
-    bool wantsQuit = false;
+    bool wantsQuit = false; // asked for; unsaved changes are asked about first
+    bool quits = false;     // decided
+    // For tests: names of what was drawn in this frame, with their place; filled only with a state file.
+    bool recordsPlaces = false;
+    std::map<std::string, ViewportRect> places;
 
     // --- rendering
     RenderThread* renderThread = nullptr;    // never null in a running window

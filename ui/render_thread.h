@@ -60,6 +60,8 @@ class RenderThread {
     void setView(std::string view);
     void setSize(glm::ivec2 sizePx); // of the viewport
     void setLimits(const RenderLimits& limits);
+    // When the event happened that the next calls answer, by steadyMs(); 0: they stand for themselves.
+    void setInputTime(double ms);
     void setPaused(bool paused); // minimised windows need no pictures
 
     // Runs between two frames on the thread, in the order posted; for probes and captures. After it frames go
@@ -69,6 +71,7 @@ class RenderThread {
 
     // The newest finished picture that nobody has taken yet; null: none.
     std::shared_ptr<const ShownFrame> takeFrame();
+    bool hasNews() const; // a picture or an error can be taken
     // What went wrong since the last call, in words for the user; the thread goes on where it can.
     std::optional<Error> takeError();
     // What it is doing when that takes long ("Preparing the scene"); empty: rendering or at rest.

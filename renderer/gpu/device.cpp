@@ -97,7 +97,7 @@ Device::~Device() {
 void Device::createInstance() {
     const bool validate = options_.validation != Validation::Off;
     const bool gpuAssisted = options_.validation == Validation::GpuAssisted;
-    std::vector<const char*> layers, extensions;
+    std::vector<const char*> layers, extensions = options_.instanceExtensions;
     std::uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> available(count);
@@ -205,7 +205,7 @@ void Device::createDevice() {
     queueFamily_ = std::uint32_t(family - families.begin());
 
     const std::vector<VkExtensionProperties> available = deviceExtensions(physicalDevice_);
-    std::vector<const char*> extensions;
+    std::vector<const char*> extensions = options_.deviceExtensions;
     hasRayQuery_ = options_.allowRayQuery && hasExtension(available, VK_KHR_RAY_QUERY_EXTENSION_NAME) &&
                    hasExtension(available, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
                    hasExtension(available, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);

@@ -26,6 +26,8 @@ struct DeviceOptions {
     bool allowRayQuery = true;
     std::string nameContains; // picks the first device whose name has this; empty prefers real GPUs
     bool diskCache = true;
+    // Beyond what lighting needs: the window's own device presents.
+    std::vector<const char*> instanceExtensions, deviceExtensions;
 };
 
 class Device {

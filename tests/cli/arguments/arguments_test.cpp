@@ -72,16 +72,18 @@ TEST_F(Arguments, ListTellsTheSameAsTextAndJson) {
         }
 }
 
-TEST_F(Arguments, WithoutTheWindowItSaysWhatToDo) {
-    expectRefusal(3, {}, {"window does not exist yet", "kilolux render SCENE.glb -o OUT.png"});
-    expectRefusal(3, {"edit"}, {"window does not exist yet"});
-    expectRefusal(3, {"edit", "a b.glb"}, {"kilolux render 'a b.glb' -o OUT.png"});
+TEST_F(Arguments, WithoutADisplayItSaysWhatToDo) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    expectRefusal(3, {}, {"cannot open a window", "kilolux render SCENE.glb -o OUT.png"});
+    expectRefusal(3, {"edit"}, {"cannot open a window"});
+    expectRefusal(3, {"a.glb"}, {"cannot open a window"});
 }
 
 TEST_F(Arguments, UnknownWordsGetTheNearest) {
     expectRefusal(2, {"rendr"}, {"'rendr'", "did you mean 'render'?"});
     expectRefusal(2, {"--lst"}, {"'--lst'", "did you mean '--list'?"});
-    expectRefusal(2, {"scene.glb"}, {"kilolux render 'scene.glb' -o OUT.png"});
+    expectRefusal(2, {"rendr", "scene.glb"}, {"'rendr'", "did you mean 'render'?"});
     expectRefusal(2, {"render", "a.glb", "--frame", "2"},
                   {"did you mean '--frames'?", "kilolux render --help"});
     expectRefusal(2, {"render", "a.glb", "b.glb"}, {"'b.glb'"});

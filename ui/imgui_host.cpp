@@ -1,0 +1,417 @@
+// Device, swapchain and drawing of the window, see imgui_host.h.
+#include "ui/imgui_host.h"
+
+#include "renderer/gpu/resource.h"
+#include "ui/render_thread.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <backends/imgui_impl_vulkan.h>
+#include <cstring>
+#include <fmt/format.h>
+#include <imgui.h>
+#include <vector>
+
+extern "C" VkResult glfwCreateWindowSurface(VkInstance instance, GLFWwindow* window,
+                                            const VkAllocationCallbacks* allocator, VkSurfaceKHR* surface);
+
+namespace kilolux {
+
+namespace {
+
+constexpr std::uint32_t kLeastImages = 2;
+
+gpu::DeviceOptions presentingDevice() {
+    gpu::DeviceOptions options;
+    const char* validation = std::getenv("KILOLUX_VALIDATION");
+    if (validation && *validation && *validation != '0') options.validation = gpu::Validation::On;
+    if (const char* name = std::getenv("KILOLUX_DEVICE"); name && *name) options.nameContains = name;
+    options.allowRayQuery = false;
+    std::uint32_t count = 0;
+    const char** needed = glfwGetRequiredInstanceExtensions(&count);
+    for (std::uint32_t i = 0; i < count; ++i)
+        options.instanceExtensions.push_back(needed[i]);
+    options.deviceExtensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    return options;
+}
+
+void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to) {
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    // One queue and a handful of commands a frame: exact stages would gain nothing.
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.imageMemoryBarrierCount = 1;
+    info.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+} // namespace
+
+struct ImGuiHost::Impl {
+    Impl() : device(presentingDevice()) {}
+    ~Impl();
+
+    gpu::Device device;
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    VkSurfaceFormatKHR format{};
+    VkPresentModeKHR presentMode = VK_PRESENT_MODE_FIFO_KHR;
+    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
+    glm::ivec2 sizePx{0};
+    struct SwapImage {
+        VkImage image = VK_NULL_HANDLE;
+        VkImageView view = VK_NULL_HANDLE;
+        VkFramebuffer framebuffer = VK_NULL_HANDLE;
+        VkSemaphore drawn = VK_NULL_HANDLE;
+    };
+    std::vector<SwapImage> images;
+    VkRenderPass renderPass = VK_NULL_HANDLE;
+    VkDescriptorPool descriptors = VK_NULL_HANDLE;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    VkSemaphore acquired = VK_NULL_HANDLE;
+    bool imguiReady = false;
+
+    gpu::Image picture;
+    gpu::Buffer staging;
+    glm::ivec2 picturePx{0};
+    bool uploadPending = false;
+
+    std::optional<Error> prepare(GLFWwindow* window);
+    std::optional<Error> chooseSurface(GLFWwindow* window);
+    void makeRenderPass();
+    void makeObjects();
+    void startImGui();
+    void makeSwapchain(glm::ivec2 wantedPx);
+    void dropSwapchain();
+    void record(const SwapImage& target, const ViewportRect& rect);
+    void blitPicture(const SwapImage& target, const ViewportRect& rect);
+    std::optional<Error> present(glm::ivec2 windowPx, const ViewportRect& rect);
+};
+
+ImGuiHost::Impl::~Impl() {
+    vkDeviceWaitIdle(device.handle());
+    if (imguiReady) ImGui_ImplVulkan_Shutdown();
+    dropSwapchain();
+    if (swapchain) vkDestroySwapchainKHR(device.handle(), swapchain, nullptr);
+    if (renderPass) vkDestroyRenderPass(device.handle(), renderPass, nullptr);
+    if (descriptors) vkDestroyDescriptorPool(device.handle(), descriptors, nullptr);
+    if (pool) vkDestroyCommandPool(device.handle(), pool, nullptr);
+    if (fence) vkDestroyFence(device.handle(), fence, nullptr);
+    if (acquired) vkDestroySemaphore(device.handle(), acquired, nullptr);
+    if (surface) vkDestroySurfaceKHR(device.instance(), surface, nullptr);
+}
+
+std::optional<Error> ImGuiHost::Impl::prepare(GLFWwindow* window) {
+    if (auto error = chooseSurface(window)) return error;
+    makeRenderPass();
+    makeObjects();
+    startImGui();
+    return std::nullopt;
+}
+
+std::optional<Error> ImGuiHost::Impl::chooseSurface(GLFWwindow* window) {
+    KX_VK(glfwCreateWindowSurface(device.instance(), window, nullptr, &surface));
+    VkBool32 presents = VK_FALSE;
+    KX_VK(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &presents));
+    if (!presents) return Error{fmt::format("device '{}' cannot present to this window", device.name())};
+    std::uint32_t count = 0;
+    KX_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr));
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    KX_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, formats.data()));
+    // Values are sRGB-encoded already, as are ImGui's colours.
+    const auto wanted = std::find_if(formats.begin(), formats.end(), [](const VkSurfaceFormatKHR& f) {
+        return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM;
+    });
+    if (wanted == formats.end()) return Error{"the window has no 8-bit format"};
+    format = *wanted;
+    KX_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr));
+    std::vector<VkPresentModeKHR> modes(count);
+    KX_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()));
+    if (std::find(modes.begin(), modes.end(), VK_PRESENT_MODE_MAILBOX_KHR) != modes.end())
+        presentMode = VK_PRESENT_MODE_MAILBOX_KHR;
+    return std::nullopt;
+}
+
+void ImGuiHost::Impl::makeRenderPass() {
+    VkAttachmentDescription color{};
+    color.format = format.format;
+    color.samples = VK_SAMPLE_COUNT_1_BIT;
+    color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the picture lies below
+    color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    color.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    color.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    color.initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    color.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
+    info.attachmentCount = 1;
+    info.pAttachments = &color;
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    KX_VK(vkCreateRenderPass(device.handle(), &info, nullptr, &renderPass));
+}
+
+void ImGuiHost::Impl::makeObjects() {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
+    VkDescriptorPoolCreateInfo descriptorInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    descriptorInfo.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+    descriptorInfo.maxSets = 4;
+    descriptorInfo.poolSizeCount = 1;
+    descriptorInfo.pPoolSizes = &size;
+    KX_VK(vkCreateDescriptorPool(device.handle(), &descriptorInfo, nullptr, &descriptors));
+    VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    poolInfo.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    poolInfo.queueFamilyIndex = device.queueFamily();
+    KX_VK(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool));
+    VkCommandBufferAllocateInfo bufferInfo{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    bufferInfo.commandPool = pool;
+    bufferInfo.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    bufferInfo.commandBufferCount = 1;
+    KX_VK(vkAllocateCommandBuffers(device.handle(), &bufferInfo, &commands));
+    VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    fenceInfo.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    KX_VK(vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence));
+    const VkSemaphoreCreateInfo semaphoreInfo{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    KX_VK(vkCreateSemaphore(device.handle(), &semaphoreInfo, nullptr, &acquired));
+}
+
+void ImGuiHost::Impl::startImGui() {
+    ImGui_ImplVulkan_InitInfo info{};
+    info.Instance = device.instance();
+    info.PhysicalDevice = device.physical();
+    info.Device = device.handle();
+    info.QueueFamily = device.queueFamily();
+    info.Queue = device.queue();
+    info.PipelineCache = device.pipelineCache();
+    info.DescriptorPool = descriptors;
+    info.MinImageCount = kLeastImages;
+    info.ImageCount = kLeastImages; // vertex buffers of so many frames; one frame is in flight
+    info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+    ImGui_ImplVulkan_Init(&info, renderPass);
+    imguiReady = true;
+}
+
+void ImGuiHost::Impl::dropSwapchain() {
+    for (const SwapImage& image : images) {
+        vkDestroyFramebuffer(device.handle(), image.framebuffer, nullptr);
+        vkDestroyImageView(device.handle(), image.view, nullptr);
+        vkDestroySemaphore(device.handle(), image.drawn, nullptr);
+    }
+    images.clear();
+}
+
+void ImGuiHost::Impl::makeSwapchain(glm::ivec2 wantedPx) {
+    vkDeviceWaitIdle(device.handle());
+    dropSwapchain();
+    VkSurfaceCapabilitiesKHR can{};
+    KX_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), surface, &can));
+    VkExtent2D extent = can.currentExtent;
+    if (extent.width == UINT32_MAX) extent = {std::uint32_t(wantedPx.x), std::uint32_t(wantedPx.y)};
+    sizePx = {int(extent.width), int(extent.height)};
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = surface;
+    info.minImageCount = std::max(kLeastImages, can.minImageCount);
+    info.imageFormat = format.format;
+    info.imageColorSpace = format.colorSpace;
+    info.imageExtent = extent;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.preTransform = can.currentTransform;
+    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+    info.presentMode = presentMode;
+    info.clipped = VK_TRUE;
+    info.oldSwapchain = swapchain;
+    VkSwapchainKHR made = VK_NULL_HANDLE;
+    KX_VK(vkCreateSwapchainKHR(device.handle(), &info, nullptr, &made));
+    if (swapchain) vkDestroySwapchainKHR(device.handle(), swapchain, nullptr);
+    swapchain = made;
+    std::uint32_t count = 0;
+    KX_VK(vkGetSwapchainImagesKHR(device.handle(), swapchain, &count, nullptr));
+    std::vector<VkImage> handles(count);
+    KX_VK(vkGetSwapchainImagesKHR(device.handle(), swapchain, &count, handles.data()));
+    for (VkImage handle : handles) {
+        SwapImage image{handle};
+        VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+        viewInfo.image = handle;
+        viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+        viewInfo.format = format.format;
+        viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        KX_VK(vkCreateImageView(device.handle(), &viewInfo, nullptr, &image.view));
+        VkFramebufferCreateInfo framebufferInfo{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+        framebufferInfo.renderPass = renderPass;
+        framebufferInfo.attachmentCount = 1;
+        framebufferInfo.pAttachments = &image.view;
+        framebufferInfo.width = extent.width;
+        framebufferInfo.height = extent.height;
+        framebufferInfo.layers = 1;
+        KX_VK(vkCreateFramebuffer(device.handle(), &framebufferInfo, nullptr, &image.framebuffer));
+        const VkSemaphoreCreateInfo semaphoreInfo{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+        KX_VK(vkCreateSemaphore(device.handle(), &semaphoreInfo, nullptr, &image.drawn));
+        images.push_back(image);
+    }
+}
+
+void ImGuiHost::Impl::blitPicture(const SwapImage& target, const ViewportRect& rect) {
+    if (uploadPending) {
+        imageBarrier(commands, picture.handle(), VK_IMAGE_LAYOUT_UNDEFINED,
+                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+        VkBufferImageCopy region{};
+        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.imageExtent = {std::uint32_t(picturePx.x), std::uint32_t(picturePx.y), 1};
+        vkCmdCopyBufferToImage(commands, staging.handle(), picture.handle(),
+                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+        imageBarrier(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                     VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+        uploadPending = false;
+    }
+    const glm::ivec2 corner(int(rect.x), int(rect.y));
+    const glm::ivec2 end = glm::min(corner + glm::ivec2(int(rect.width), int(rect.height)), sizePx);
+    if (end.x <= corner.x || end.y <= corner.y) return;
+    VkImageBlit region{};
+    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.srcOffsets[1] = {picturePx.x, picturePx.y, 1};
+    region.dstOffsets[0] = {corner.x, corner.y, 0};
+    region.dstOffsets[1] = {end.x, end.y, 1};
+    const bool sameSize = end - corner == picturePx;
+    vkCmdBlitImage(commands, picture.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   sameSize ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+}
+
+void ImGuiHost::Impl::record(const SwapImage& target, const ViewportRect& rect) {
+    KX_VK(vkResetCommandBuffer(commands, 0));
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    KX_VK(vkBeginCommandBuffer(commands, &begin));
+    imageBarrier(commands, target.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    if (picture) blitPicture(target, rect);
+    imageBarrier(commands, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                 VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+    pass.renderPass = renderPass;
+    pass.framebuffer = target.framebuffer;
+    pass.renderArea.extent = {std::uint32_t(sizePx.x), std::uint32_t(sizePx.y)};
+    vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
+    ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands);
+    vkCmdEndRenderPass(commands);
+    KX_VK(vkEndCommandBuffer(commands));
+}
+
+std::optional<Error> ImGuiHost::Impl::present(glm::ivec2 windowPx, const ViewportRect& rect) {
+    if (windowPx.x <= 0 || windowPx.y <= 0) return std::nullopt;
+    KX_VK(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX));
+    if (!swapchain || sizePx != windowPx) makeSwapchain(windowPx);
+    std::uint32_t index = 0;
+    const VkResult got =
+        vkAcquireNextImageKHR(device.handle(), swapchain, UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
+    if (got == VK_ERROR_OUT_OF_DATE_KHR) {
+        makeSwapchain(windowPx); // the next frame draws into it
+        return std::nullopt;
+    }
+    if (got != VK_SUBOPTIMAL_KHR) KX_VK(got);
+    record(images[index], rect);
+    KX_VK(vkResetFences(device.handle(), 1, &fence));
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.waitSemaphoreCount = 1;
+    submit.pWaitSemaphores = &acquired;
+    submit.pWaitDstStageMask = &stage;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    submit.signalSemaphoreCount = 1;
+    submit.pSignalSemaphores = &images[index].drawn;
+    KX_VK(vkQueueSubmit(device.queue(), 1, &submit, fence));
+    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &images[index].drawn;
+    info.swapchainCount = 1;
+    info.pSwapchains = &swapchain;
+    info.pImageIndices = &index;
+    const VkResult shown = vkQueuePresentKHR(device.queue(), &info);
+    if (shown == VK_ERROR_OUT_OF_DATE_KHR || shown == VK_SUBOPTIMAL_KHR) {
+        sizePx = {0, 0}; // the swapchain is made anew by the next frame
+        return std::nullopt;
+    }
+    KX_VK(shown);
+    const std::vector<std::string> messages = device.takeValidationMessages();
+    if (!messages.empty()) return Error{fmt::format("Vulkan validation: {}", messages.front())};
+    return std::nullopt;
+}
+
+// --- ImGuiHost -------------------------------------------------------------------------------------------
+
+ImGuiHost::ImGuiHost(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+ImGuiHost::~ImGuiHost() = default;
+
+Result<std::unique_ptr<ImGuiHost>> ImGuiHost::create(GLFWwindow* window) {
+    try {
+        auto impl = std::make_unique<Impl>();
+        if (auto error = impl->prepare(window)) return *error;
+        return std::unique_ptr<ImGuiHost>(new ImGuiHost(std::move(impl)));
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+std::optional<Error> ImGuiHost::uploadFonts() {
+    try {
+        Impl& impl = *impl_;
+        KX_VK(vkWaitForFences(impl.device.handle(), 1, &impl.fence, VK_TRUE, UINT64_MAX));
+        KX_VK(vkResetCommandBuffer(impl.commands, 0));
+        VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        KX_VK(vkBeginCommandBuffer(impl.commands, &begin));
+        ImGui_ImplVulkan_CreateFontsTexture(impl.commands);
+        KX_VK(vkEndCommandBuffer(impl.commands));
+        impl.device.submitAndWait({impl.commands});
+        ImGui_ImplVulkan_DestroyFontUploadObjects();
+        return std::nullopt;
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+void ImGuiHost::setPicture(const ShownFrame* frame) {
+    Impl& impl = *impl_;
+    KX_VK(vkWaitForFences(impl.device.handle(), 1, &impl.fence, VK_TRUE, UINT64_MAX));
+    if (!frame) {
+        impl.picture = {};
+        impl.uploadPending = false;
+        return;
+    }
+    const glm::ivec2 size(frame->width, frame->height);
+    if (!impl.picture || size != impl.picturePx) {
+        impl.picture =
+            gpu::Image(impl.device, {"shown picture", VK_FORMAT_R8G8B8A8_UNORM, std::uint32_t(size.x),
+                                     std::uint32_t(size.y), 1, 1, 1, false, VK_IMAGE_USAGE_SAMPLED_BIT});
+        impl.staging =
+            gpu::Buffer(impl.device, {"shown picture", frame->rgba8.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                      gpu::MemoryUse::HostWrite, "staging"});
+        impl.picturePx = size;
+    }
+    impl.staging.upload(std::span(frame->rgba8));
+    impl.uploadPending = true;
+}
+
+std::optional<Error> ImGuiHost::present(glm::ivec2 windowPx, const ViewportRect& rect) {
+    try {
+        return impl_->present(windowPx, rect);
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
+}
+
+} // namespace kilolux

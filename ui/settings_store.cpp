@@ -1,0 +1,117 @@
+// Reading and writing what is remembered, see settings_store.h.
+#include "ui/settings_store.h"
+
+#include "renderer/document/file_replace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+namespace kilolux {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::size_t kMostRecent = 10;
+
+// One list of members for both directions.
+template<typename Io>
+void visit(Io& io, Remembered& r) {
+    io("windowWidth", r.windowWidth, 320, 16384);
+    io("windowHeight", r.windowHeight, 240, 16384);
+    io("uiScale", r.uiScale, 0.0, 4.0);
+    io("leftWidth", r.leftWidth, 160.0, 1000.0);
+    io("rightWidth", r.rightWidth, 160.0, 1000.0);
+    io("panels", r.panels.all);
+    io("lights", r.panels.lights);
+    io("properties", r.panels.properties);
+    io("statistics", r.panels.statistics);
+    io("outlines", r.panels.outlines);
+    io("gizmos", r.panels.gizmos);
+    io("snapAlways", r.snapping.always);
+    io("snapMoveM", r.snapping.moveM, 1e-4, 100.0);
+    io("snapAngleDeg", r.snapping.angleDeg, 0.01, 180.0);
+    io("snapScale", r.snapping.scale, 1e-3, 10.0);
+    io("gizmoSizePx", r.gizmoSizePx, 32.0, 400.0);
+    io("movingFrameMs", r.limits.movingFrameMs, 10.0, 10000.0);
+    io("leastScale", r.limits.leastScale, 0.1, 1.0);
+    io("meanFrames", r.limits.meanFrames, 1u, 100000u);
+    io("mostPixels", r.limits.mostPixels, 0u, 1u << 26);
+}
+
+struct Reader {
+    const Json& json;
+
+    void operator()(const char* name, bool& value) const {
+        const auto found = json.find(name);
+        if (found != json.end() && found->is_boolean()) value = found->get<bool>();
+    }
+    template<typename T>
+    void operator()(const char* name, T& value, T least, T most) const {
+        const auto found = json.find(name);
+        if (found == json.end() || !found->is_number()) return;
+        const double number = found->get<double>();
+        if (std::isfinite(number)) value = T(std::clamp(number, double(least), double(most)));
+    }
+};
+
+struct Writer {
+    Json json = Json::object();
+
+    void operator()(const char* name, bool value) { json[name] = value; }
+    template<typename T>
+    void operator()(const char* name, T value, T, T) {
+        json[name] = value;
+    }
+};
+
+} // namespace
+
+fs::path rememberedPath() {
+    if (const char* xdg = std::getenv("XDG_CONFIG_HOME"); xdg && *xdg)
+        return fs::path(xdg) / "kilolux" / "window.json";
+    if (const char* home = std::getenv("HOME"); home && *home)
+        return fs::path(home) / ".config" / "kilolux" / "window.json";
+    return {};
+}
+
+Remembered readRemembered(const fs::path& path) {
+    Remembered remembered;
+    const Result<std::string> text = readWholeFile(path);
+    const Json json = text ? Json::parse(text.value(), nullptr, false) : Json();
+    if (!json.is_object()) return remembered;
+    Reader reader{json};
+    visit(reader, remembered);
+    const auto recent = json.find("recent");
+    if (recent == json.end() || !recent->is_array()) return remembered;
+    for (const Json& scene : *recent)
+        if (scene.is_string() && remembered.recent.size() < kMostRecent)
+            remembered.recent.push_back(scene.get<std::string>());
+    return remembered;
+}
+
+std::optional<Error> writeRemembered(const fs::path& path, const Remembered& remembered) {
+    if (path.empty()) return std::nullopt;
+    std::error_code ignored; // the write tells
+    fs::create_directories(path.parent_path(), ignored);
+    Writer writer;
+    Remembered copy = remembered;
+    visit(writer, copy);
+    writer.json["recent"] = remembered.recent;
+    // Names of files may be no valid UTF-8.
+    return replaceFile(path, writer.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void rememberScene(Remembered& remembered, const fs::path& scene) {
+    std::error_code failed;
+    const fs::path absolute = fs::absolute(scene, failed);
+    const std::string text = failed ? scene.string() : absolute.string();
+    std::erase(remembered.recent, text);
+    remembered.recent.insert(remembered.recent.begin(), text);
+    if (remembered.recent.size() > kMostRecent) remembered.recent.resize(kMostRecent);
+}
+
+} // namespace kilolux

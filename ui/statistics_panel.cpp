@@ -1,0 +1,8 @@
+// The place of a panel that its own change fills.
+#include "ui/panels.h"
+
+namespace kilolux {
+
+void drawStatisticsPanel(Desk&) {}
+
+} // namespace kilolux

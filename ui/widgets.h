@@ -1,0 +1,29 @@
+// Small controls that several panels share.
+#pragma once
+
+#include "ui/desk.h"
+
+#include <string>
+#include <string_view>
+
+namespace kilolux {
+
+// Unscaled pixels to those of this screen, on whole ones.
+float px(const Desk& desk, double units);
+
+enum class ButtonLook { Plain, Active, Disabled };
+// A square button. `name` is its id and its place for tests; `tip` shows after a moment.
+bool iconButton(Desk& desk, const char* name, const char* icon, const char* tip,
+                ButtonLook look = ButtonLook::Plain);
+bool textButton(Desk& desk, const char* name, const char* text, ButtonLook look = ButtonLook::Plain);
+
+// The last item's help, after the pointer has rested on it.
+void tooltip(const char* text);
+
+// Text in at most `widthPx`, with an ellipsis and the whole of it on hover.
+void textWithin(std::string_view text, float widthPx);
+
+// Names the last item for tests.
+void mark(Desk& desk, const std::string& name);
+
+} // namespace kilolux
