@@ -112,6 +112,12 @@ std::optional<Error> Renderer::renderFrame() {
     try {
         Impl& impl = *impl_;
         impl.runFrame(impl.nextFrame++, {impl.options.width, impl.options.height}, impl.times);
+        if (impl.interrupted) {
+            --impl.nextFrame;
+            return std::nullopt;
+        }
+        constexpr std::size_t kKeptTimes = 64; // a window runs for hours
+        impl.times.keepNewest(kKeptTimes);
         impl.options.frames = int(impl.nextFrame);
         impl.describe();
         const std::vector<std::string> messages = impl.device.takeValidationMessages();
@@ -120,6 +126,10 @@ std::optional<Error> Renderer::renderFrame() {
     } catch (const gpu::DeviceError& error) {
         return Error{error.what()};
     }
+}
+
+bool Renderer::wasInterrupted() const {
+    return impl_->interrupted;
 }
 
 Picture Renderer::picture() const {

@@ -8,6 +8,7 @@
 #include "renderer/settings.h"
 #include "renderer/statistics.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -45,6 +46,9 @@ struct RenderOptions {
     std::optional<std::uint32_t> gridRoom; // indices of the light grid's fine lists at the start, for tests
     // For tests of the filters: what stands in for the light that a frame has sampled; empty: nothing does.
     std::function<LitTexels(int frame)> replaceLit;
+    // A frame in slices of about so many milliseconds, between which it can be given up; 0: one submission.
+    double sliceMs = 0.0;
+    const std::atomic<bool>* interrupt = nullptr; // set: renderFrame() gives its frame up at the next slice
     bool poisonTargets = false; // targets start as NaN, so that a pixel which no pass writes shows
 };
 
@@ -82,7 +86,10 @@ class Renderer {
     // frame on. History goes on through all of them but a cut and changed settings.
 
     std::optional<Error> renderFrame(); // the next one; the first compiles
-    Picture picture() const;            // of the last frame
+    // Whether the last renderFrame() was given up. Then the next one goes on from the frame before it, with
+    // its history; only the mean begins anew, and there is no picture until then.
+    bool wasInterrupted() const;
+    Picture picture() const; // of the last frame
     // The last frame as the display shows it: sRGB, 4 bytes a pixel. Cheaper than picture().
     std::vector<std::byte> displayPixels() const;
     enum class CameraChange { Move, Cut };

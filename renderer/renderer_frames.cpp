@@ -121,16 +121,32 @@ void Renderer::Impl::countStillFrames(const shared::FrameConstants& before) {
     meanReset = false;
 }
 
+bool Renderer::Impl::submitFrame(gpu::Commands& commands, FrameContext& context) {
+    // Given up, a frame with moving instances would lose where they had been.
+    const bool canStop = !gpuScene->hasMovingInstances();
+    if (options.sliceMs > 0.0)
+        commands.submitInSlices(options.sliceMs, canStop ? options.interrupt : nullptr);
+    try {
+        recordFrame(context, *passes, plan, world, meanFrames, float(0.25 * sceneExtentM));
+        commands.submitAndWait();
+        return true;
+    } catch (const gpu::Interrupted&) {
+        return false;
+    }
+}
+
 void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes) {
     const double timeS = options.settings.timeS + index * options.settings.timeStepS;
     updateScene(timeS);
-    if (historyReset.empty()) {
-        targets->turnHistory();
-        // Frozen at once, it holds the first frame: before that there is nothing to hold.
-        if (historyBegins || !(options.settings.freezeHistory && frozen(index))) {
-            targets->turnFilteredHistory();
-            historyExposure = constants.exposure;
-        }
+    const bool turns = historyReset.empty();
+    // Frozen at once, it holds the first frame: before that there is nothing to hold.
+    const bool turnsFiltered = turns && (historyBegins || !(options.settings.freezeHistory && frozen(index)));
+    const shared::FrameConstants constantsBefore = constants;
+    const float exposureBefore = historyExposure;
+    if (turns) targets->turnHistory();
+    if (turnsFiltered) {
+        targets->turnFilteredHistory();
+        historyExposure = constants.exposure;
     }
     describeFrame(index, outputPx, cameraAt(timeS, scene));
     frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
@@ -163,8 +179,16 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
         context.replacedDiffuse = replaced[0] ? &replaced[0] : nullptr;
         context.replacedSpecular = replaced[1] ? &replaced[1] : nullptr;
     }
-    recordFrame(context, *passes, plan, world, meanFrames, float(0.25 * sceneExtentM));
-    commands.submitAndWait();
+    interrupted = !submitFrame(commands, context);
+    if (interrupted) {
+        // Everything that lasts is written into one of two images in turn: turned back, it is as it was.
+        if (turns) targets->turnHistory();
+        if (turnsFiltered) targets->turnFilteredHistory();
+        historyExposure = exposureBefore;
+        constants = constantsBefore;
+        meanReset = true; // it has one image only
+        return;
+    }
 
     const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
     for (std::size_t i = 0; i < counted.size(); ++i)

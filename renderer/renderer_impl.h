@@ -23,6 +23,7 @@ struct Renderer::Impl {
 
     // --- renderer_frames.cpp
     void runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes);
+    bool submitFrame(gpu::Commands& commands, FrameContext& context); // false: given up
     void compilePipelines();
     Picture readPicture() const;
 
@@ -63,6 +64,7 @@ struct Renderer::Impl {
     std::uint32_t meanFrames = 0;             // that the running mean holds
     std::string historyReset = "first frame"; // why there is no history; empty: there is
     std::string lastHistoryReset;             // the last one that happened
+    bool interrupted = false;                 // the last frame was given up
     bool historyBegins = true;                // the last frame found none
     float historyExposure = 1.0f;             // that the denoiser's history was written with
     bool meanReset = true;                    // something changed that the mean does not survive

@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <backends/imgui_impl_vulkan.h>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -277,12 +278,17 @@ void ImGuiHost::Impl::blitPicture(const SwapImage& target, const ViewportRect& r
                      VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         uploadPending = false;
     }
-    const glm::ivec2 corner(int(rect.x), int(rect.y));
-    const glm::ivec2 end = glm::min(corner + glm::ivec2(int(rect.width), int(rect.height)), sizePx);
+    // A picture of another shape, while its successor is on the way, keeps the viewport's height.
+    const double shownWidth = rect.height * picturePx.x / picturePx.y;
+    const double cut = std::max(0.5 * (1.0 - rect.width / shownWidth), 0.0); // share left out at each side
+    const glm::ivec2 corner(int(rect.x + std::max(0.5 * (rect.width - shownWidth), 0.0)), int(rect.y));
+    const glm::ivec2 wanted(int(std::lround(std::min(rect.width, shownWidth))), int(rect.height));
+    const glm::ivec2 end = glm::min(corner + wanted, sizePx);
     if (end.x <= corner.x || end.y <= corner.y) return;
     VkImageBlit region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.srcOffsets[1] = {picturePx.x, picturePx.y, 1};
+    region.srcOffsets[0] = {int(std::lround(cut * picturePx.x)), 0, 0};
+    region.srcOffsets[1] = {picturePx.x - region.srcOffsets[0].x, picturePx.y, 1};
     region.dstOffsets[0] = {corner.x, corner.y, 0};
     region.dstOffsets[1] = {end.x, end.y, 1};
     const bool sameSize = end - corner == picturePx;

@@ -183,7 +183,7 @@ Layout makeLayout(const Desk& desk, glm::ivec2 windowPx) {
     const double least = px(desk, kLeastViewportUnits);
     double left = shows && desk.panels.lights ? px(desk, remembered.leftWidth) : 0.0;
     double right = shows && desk.panels.properties ? px(desk, remembered.rightWidth) : 0.0;
-    if (!desk.session) left = right = 0.0; // they would be empty
+    if (!desk.session && !desk.files->isOpening()) left = right = 0.0; // they would be empty
     if (width - left - right < least) left = 0.0;
     if (width - left - right < least) right = 0.0;
     const double middle = std::max(height - top - bottom, 1.0);

@@ -2,6 +2,7 @@
 #include "ui/render_thread.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
@@ -78,6 +79,8 @@ struct RenderThread::Impl {
     std::shared_ptr<const ShownFrame> finished;
     std::optional<Error> error;
     std::string activity;
+    std::atomic<bool> interrupt = false; // gives the present frame up
+    std::atomic<bool> canInterrupt = false;
 
     // --- of the thread
     std::function<void()> wake;
@@ -104,6 +107,7 @@ struct RenderThread::Impl {
             change(pending);
             if (showsInPicture) pending.atMs = inputMs > 0.0 ? inputMs : steadyMs();
         }
+        if (showsInPicture && canInterrupt) interrupt = true;
         condition.notify_one();
     }
 
@@ -156,6 +160,8 @@ void RenderThread::Impl::create(OpenRequest request) {
     version = request.version;
     const glm::ivec2 size = pictureSize();
     if (size.x > 0) options.width = size.x, options.height = size.y;
+    options.sliceMs = limits.sliceMs;
+    options.interrupt = &interrupt;
     say("Preparing the scene");
     Result<std::unique_ptr<Renderer>> created = Renderer::create(scene, options);
     say("");
@@ -220,7 +226,8 @@ void RenderThread::Impl::apply(Requests requests) {
 // Full resolution at rest; while something moves, what keeps a frame within its time.
 double RenderThread::Impl::wantedScale() const {
     const double most = options.settings.renderScale;
-    if (steadyMs() - lastChangeMs > limits.restMs || msPerPixel == 0.0) return most;
+    if (msPerPixel == 0.0) return std::min(limits.leastScale, most); // the first picture comes soon
+    if (steadyMs() - lastChangeMs > limits.restMs) return most;
     const double pixels = double(options.width) * double(options.height);
     const double fits = std::sqrt(limits.movingFrameMs / (msPerPixel * pixels));
     const double stepped = std::floor(fits * kScaleSteps) / kScaleSteps;
@@ -232,7 +239,16 @@ void RenderThread::Impl::renderOne() {
     renderer->setRenderScale(scale);
     if (freshFrames == 0) say("Building pipelines");
     const double beginMs = steadyMs();
+    // A frame that follows a movement is short and must come to its end; one at rest may be given up for it.
+    const double expectedMs = msPerPixel * double(options.width) * double(options.height) * scale * scale;
+    interrupt = false;
+    canInterrupt = expectedMs > limits.movingFrameMs;
+    {
+        const std::lock_guard lock(mutex); // a change that came in between
+        if (canInterrupt && pending.atMs > 0.0) interrupt = true;
+    }
     const std::optional<Error> failed = renderer->renderFrame();
+    canInterrupt = false;
     if (freshFrames == 0) say("");
     if (failed) {
         // A device that has failed once does so for ever: the last picture stays.
@@ -240,11 +256,13 @@ void RenderThread::Impl::renderOne() {
         renderer.reset();
         return;
     }
+    if (renderer->wasInterrupted()) return;
     const double tookMs = steadyMs() - beginMs;
     const double pixels = double(options.width) * double(options.height) * scale * scale;
-    if (++freshFrames > 2) {
+    if (++freshFrames > 1) {
         const double now = tookMs / pixels;
-        msPerPixel = msPerPixel == 0.0 ? now : msPerPixel + 0.3 * (now - msPerPixel);
+        // A pause of the machine, or a pipeline that was still missing, is no reason to stay coarse.
+        msPerPixel = msPerPixel == 0.0 ? now : std::min(now, msPerPixel + 0.3 * (now - msPerPixel));
     }
     const bool full = scale == options.settings.renderScale;
     stillFrames = full ? stillFrames + 1 : 0;

@@ -35,6 +35,7 @@ struct RenderLimits {
     double leastScale = 0.3;        // but not below this share of width and height
     std::uint32_t meanFrames = 256; // that a settled picture holds
     std::uint32_t mostPixels = 0;   // of a picture; a larger viewport gets it enlarged. 0: no limit
+    double sliceMs = 15.0;          // a frame at rest can be given up so often; 0: never
     double restMs = 200.0;          // after the last change until full resolution
     bool operator==(const RenderLimits&) const = default;
 };

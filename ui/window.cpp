@@ -218,7 +218,6 @@ void Window::drawFrame(const std::vector<InputEvent>& events, double dueMs) {
     times_.eventsTaken += events.size();
     takePicture();
     pollFileTasks(desk_);
-    if (!desk_.session && desk_.shown) desk_.shown.reset();
     const Layout layout = makeLayout(desk_, windowPx_);
     followSize(layout.viewport);
     desk_.places.clear();

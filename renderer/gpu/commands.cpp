@@ -94,6 +94,17 @@ void PassTimes::add(std::string_view name, double ms) {
     entries_.push_back({std::string(name), {ms}});
 }
 
+double PassTimes::newestMs(std::string_view name) const {
+    for (const Entry& entry : entries_)
+        if (entry.name == name) return entry.ms.back();
+    return 0.0;
+}
+
+void PassTimes::keepNewest(std::size_t count) {
+    for (Entry& entry : entries_)
+        if (entry.ms.size() > count) entry.ms.erase(entry.ms.begin(), entry.ms.end() - std::ptrdiff_t(count));
+}
+
 Commands::Commands(Device& device, PassTimes* times) : device_(device), times_(times) {
     VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
@@ -141,6 +152,7 @@ void Commands::closeBuffer() {
 void Commands::beginPass(std::string_view name) {
     if (inPass_) failContract(fmt::format("pass '{}' begins inside another", name));
     inPass_ = true;
+    passName_ = name;
     if (times_ && !queries_) submitOpen(); // wall timing: nothing before may run inside this pass
     if (device_.options().commandBufferPerPass) closeBuffer();
     const std::string label(name);
@@ -167,6 +179,12 @@ void Commands::endPass() {
         times_->add(timers_.back().name, nowMs() - timers_.back().startMs);
         timers_.clear();
     }
+    if (sliceMs_ <= 0.0) return;
+    openedMs_ += times_ ? times_->newestMs(passName_) : sliceMs_;
+    if (openedMs_ < sliceMs_) return;
+    submitOpen();
+    openedMs_ = 0.0;
+    if (interrupt_ && *interrupt_) throw Interrupted();
 }
 
 void Commands::need(AccessState& state, Usage usage, const Image* image, std::uint32_t mip) {
@@ -380,6 +398,11 @@ void Commands::collectTimers() {
         times_->add(timer.name, double(ticks[timer.firstQuery + 1] - ticks[timer.firstQuery]) * msPerTick);
     }
     timers_.clear();
+}
+
+void Commands::submitInSlices(double sliceMs, const std::atomic<bool>* interrupt) {
+    sliceMs_ = sliceMs;
+    interrupt_ = interrupt;
 }
 
 void Commands::submitAndWait() {

@@ -4,6 +4,7 @@
 
 #include "resource.h"
 
+#include <atomic>
 #include <map>
 
 namespace kilolux::gpu {
@@ -16,6 +17,8 @@ class PassTimes {
         std::vector<double> ms;
     };
     void add(std::string_view name, double ms);
+    double newestMs(std::string_view name) const; // 0: never seen
+    void keepNewest(std::size_t count);           // of every pass
     const std::vector<Entry>& entries() const { return entries_; }
     void clear() { entries_.clear(); }
 
@@ -52,6 +55,12 @@ struct Captured {
     std::vector<std::byte> bytes;
 };
 
+// A submission that was given up between two of its slices; what had been recorded until then has run.
+class Interrupted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "interrupted"; }
+};
+
 class Commands {
   public:
     explicit Commands(Device& device, PassTimes* times = nullptr);
@@ -80,6 +89,10 @@ class Commands {
                            VkDeviceSize offset);
     void clearColor(const Image& image, const VkClearColorValue& value); // every mip and layer
     void fillBuffer(const Buffer& buffer, std::uint32_t value);
+
+    // Submits and waits whenever passes of together about `sliceMs` have been recorded, by what PassTimes
+    // knows of them, and throws Interrupted there once `interrupt` is set. One pass is never divided.
+    void submitInSlices(double sliceMs, const std::atomic<bool>* interrupt);
 
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
 
@@ -124,6 +137,10 @@ class Commands {
     std::uint32_t queryCount_ = 0;
     std::vector<Timer> timers_;
     bool inPass_ = false;
+    std::string passName_;
+    double sliceMs_ = 0.0;  // 0: one submission
+    double openedMs_ = 0.0; // expected of the passes since the last one
+    const std::atomic<bool>* interrupt_ = nullptr;
     struct PendingCapture {
         Captured result;
         Buffer staging;
