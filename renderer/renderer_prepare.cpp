@@ -239,6 +239,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     planFilters(plan, options.settings);
     features[shared::CHOICE_COUNT_SAMPLES] = plan.stochastic();
     features[shared::CHOICE_SPARSE_NEIGHBOURS] = device.isCpu();
+    features[shared::CHOICE_PIXEL_ROWS] = device.isCpu();
     if (plan.stochastic()) {
         if (gpuScene->lightCount() > shared::SAMPLE_LIGHT_LIMIT) {
             return Error{fmt::format("{}: {} lights; the stochastic method takes up to {}",

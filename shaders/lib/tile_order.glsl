@@ -5,6 +5,13 @@
 #define KILOLUX_TILE_ORDER_GLSL
 #include "../math/prelude.glsl"
 
+// a / b for numbers of up to 24 bits. SIMD lanes of CPUs have no integer division: each would be divided alone.
+KX_INLINE uint quotientOf24Bits(uint a, uint b) {
+    uint q = uint(float(a) / float(b)); // may be off by one
+    int rest = int(a) - int(q * b);
+    return rest < 0 ? q - 1u : (rest >= int(b) ? q + 1u : q);
+}
+
 // Tile of workgroup `group` of tileCount.x * tileCount.y, so that each of `chunks` (at least 1) runs of
 // workgroups gets every chunks-th tile. A bijection for any sizes; the identity for one chunk.
 KX_INLINE uvec2 interleavedTile(uint group, uvec2 tileCount, uint chunks) {

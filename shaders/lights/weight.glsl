@@ -79,6 +79,9 @@ KX_INLINE float seenWidth(float from, float to, float widthM, float distanceM, f
     return sqrt(cosine > 0.0 ? sine * sine / (0.5 + 0.5 * cosine) : 2.0 - 2.0 * cosine);
 }
 
+// A light this much farther away than it reaches is a small one: every part of it is seen alike, to about 1 %.
+const float KX_SMALL_LIGHT_RATIO2 = 64.0; // of squares
+
 // A flat light fills two angles, one along each axis, each seen from the distance that is left where the light is
 // nearest along the other. With the cosine at that nearest point, their product is the solid angle for small
 // lights and about right for one that fills half of the sky, however near the receiver is to its plane or to its
@@ -86,12 +89,24 @@ KX_INLINE float seenWidth(float from, float to, float widthM, float distanceM, f
 KX_INLINE LightView lightView(LightExtent e) {
     LightView view;
     float distance2 = max(dot(e.toCenter, e.toCenter), 1.0e-12);
-    float invDistance = inversesqrt(distance2);
+    // Inside a round light the direction is short instead of uncertain.
+    float invDistance2 = 1.0 / max(distance2, e.halfWidthM * e.halfWidthM);
+    float invDistance = sqrt(invDistance2);
     view.dirWs = e.toCenter * invDistance;
-    view.solidAngle = 1.0 / max(distance2, e.halfWidthM * e.halfWidthM);
+    view.solidAngle = invDistance2;
     view.sinLong = 0.0;
-    view.sinShort = min(e.halfWidthM * invDistance, 1.0);
+    view.sinShort = e.halfWidthM * invDistance;
     if (e.round_) return view;
+    float reachM = e.halfLengthM + e.halfWidthM;
+    if (reachM * reachM * KX_SMALL_LIGHT_RATIO2 < distance2) {
+        float alongAxis = dot(view.dirWs, e.longWs);
+        float sideways = sqrt(max(1.0 - alongAxis * alongAxis, 0.0));
+        float side = 4.0 * e.halfLengthM, end = KX_PI * e.halfWidthM;
+        float facing = (side * sideways + end) / max(side + end, 1.0e-12);
+        view.solidAngle = invDistance2 * (e.flat_ ? e.aheadM * invDistance : facing);
+        view.sinLong = e.halfLengthM * invDistance * sideways;
+        return view;
+    }
     float a = e.halfLengthM, b = e.halfWidthM;
     float x = dot(e.toCenter, e.longWs), y = dot(e.toCenter, e.shortWs);
     float height2 = e.flat_ ? e.aheadM * e.aheadM : max(distance2 - x * x, b * b);
@@ -155,17 +170,18 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
     vec3 toLobe = view.dirWs + e.longWs * clamp(along, -view.sinLong, view.sinLong) + across * nearer;
     toLobe = toLobe * inversesqrt(max(dot(toLobe, toLobe), 1.0e-12));
     float noL = dot(point.normalWs, toLobe);
-    vec3 halfSum = toLobe + point.viewDirWs;
-    float invHalf2 = 1.0 / max(dot(halfSum, halfSum), 1.0e-12);
-    float noH = dot(point.normalWs, halfSum);
-    float awry = saturate(1.0 - dot(toLobe, halfSum) * sqrt(invHalf2)); // from Schlick's Fresnel term
+    // With h the sum of both directions: dot(h, h) = 2 + 2 loV, and all divisions of D and V in one.
+    float loV = dot(toLobe, point.viewDirWs);
+    float half2 = max(2.0 + 2.0 * loV, 1.0e-6);
+    float noHalf = noL + dot(point.normalWs, point.viewDirWs);
+    float awry = saturate(1.0 - 0.5 * sqrt(half2)); // from Schlick's Fresnel term
     float wide = min(point.alpha + 0.25 * (view.sinLong + view.sinShort), 1.0);
     float a2 = wide * wide;
-    float d = 1.0 - noH * noH * invHalf2 * (1.0 - a2);
+    float d = half2 - min(noHalf * noHalf, half2) * (1.0 - a2);
     float facing = max(noL, 1.0e-3);
     // Smith's visibility as Hammon approximates it ("PBR Diffuse Lighting for GGX+Smith Microsurfaces", 2017),
     // with D and the cosine of the light.
-    float lobe = a2 * facing * (0.5 * KX_INV_PI) /
+    float lobe = a2 * half2 * half2 * facing * (0.5 * KX_INV_PI) /
                  max(d * d * mix(2.0 * facing * point.noV, facing + point.noV, wide), 1.0e-20);
     float specular = lobe * mix(f0, 1.0, square(awry * awry) * awry);
     return intensity * view.solidAngle * (diffuseAlbedo * KX_INV_PI * diffuse + specular);

@@ -92,12 +92,15 @@ KX_INLINE void selectionAdd(INOUT(LightSelection) s, Candidate c) {
     bool directional = c.list == LIST_DIRECTIONAL;
     float sumBefore = directional ? s.directionalSum : (hidden ? s.hiddenSum : s.visibleSum);
     for (uint i = 0u; i < s.sampleCount; ++i) {
+        Reservoir local = s.visible[i]; if(hidden) local = s.hidden[i];
+        Reservoir changed = local; if (directional) changed = s.directional[i];
+        reservoirAdd(changed, sumBefore, c.item, c.weight, c.factor);
         if (directional)
-            reservoirAdd(s.directional[i], sumBefore, c.item, c.weight, c.factor);
+            s.directional[i] = changed;
         else if (hidden)
-            reservoirAdd(s.hidden[i], sumBefore, c.item, c.weight, c.factor);
+            s.hidden[i] = changed;
         else
-            reservoirAdd(s.visible[i], sumBefore, c.item, c.weight, c.factor);
+            s.visible[i] = changed;
     }
     float sum = sumBefore + c.weight;
     if (directional)

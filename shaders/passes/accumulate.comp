@@ -32,7 +32,7 @@ void addSampled(ivec2 at, vec3 color) {
 }
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     vec3 color = texelFetch(rawColor, at, 0).rgb;

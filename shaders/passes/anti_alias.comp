@@ -49,7 +49,7 @@ vec4 historySharp(vec2 uv) {
 }
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     vec3 color = storableLight(texelFetch(sceneColor, at, 0).rgb), now = yCoCgFromRgb(color);

@@ -20,7 +20,7 @@ layout(rgba32f) writeonly uniform image2D sceneColorOut;
 layout(rgba32f) writeonly uniform image2D rawColorOut; // a dummy where there is one picture
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     Surface surface = unpackSurface(texelFetch(gNormals, at, 0).xy, texelFetch(gMaterial, at, 0).xy);

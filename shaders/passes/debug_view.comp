@@ -114,7 +114,7 @@ vec3 showFilters(ivec2 at, Surface s, out vec3 value) {
 }
 
 void main() {
-    uvec2 shownPixel = dispatchedOutputPixel();
+    uvec2 shownPixel = streamedOutputPixel();
     if (!isInOutput(shownPixel)) return;
     uvec2 pixel = min(uvec2(renderedFromOutput(shownPixel)), frame.size - 1u);
     ivec2 at = ivec2(pixel);

@@ -107,7 +107,7 @@ vec2 diskTurn(uvec2 pixel) {
 }
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     vec4 diffuse = texelFetch(historyDiffuse, at, 0), specular = texelFetch(historySpecular, at, 0);

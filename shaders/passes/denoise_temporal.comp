@@ -49,35 +49,43 @@ struct History {
     float weight; // 0: none
 };
 
-bool addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return false;
-    if (!sameDepth(texelFetch(previousDepth, at, 0).x, r.depthM, cosView)) return false;
-    if (dot(unpackOct16(texelFetch(previousNormals, at, 0).y), geoNormalWs) < kSameNormal) return false;
+void addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return;
+    if (!sameDepth(texelFetch(previousDepth, at, 0).x, r.depthM, cosView)) return;
+    if (dot(unpackOct16(texelFetch(previousNormals, at, 0).y), geoNormalWs) < kSameNormal) return;
     h.diffuse += weight * readHistory(texelFetch(previousDiffuse, at, 0));
     h.specular += weight * readHistory(texelFetch(previousSpecular, at, 0));
     h.moments += weight * readMomentHistory(texelFetch(previousMoments, at, 0));
     h.weight += weight;
-    return true;
 }
 
+const int kBilinearTaps = 4;
+const int kAllTaps = kBilinearTaps + 9;
+
 // Bilinear between the four nearest texels that show the same surface. Where none does, its texels among the 3 x 3
-// nearest: jitter makes edges hop from frame to frame.
+// nearest: jitter makes edges hop from frame to frame. One loop that ends as soon as it may, the nearest texel first:
+// lanes that are masked out cost as much as others, and of a picture that rests the nearest texel is all there is.
 History fetchHistory(Reprojection r, vec3 geoNormalWs, float cosView) {
     History h = History(vec4(0.0), vec4(0.0), vec4(0.0), 0.0);
     if (!r.onScreen) return h;
     vec2 at = r.uv * vec2(frame.previousSize) - 0.5;
     vec2 corner = floor(at);
     vec2 f = at - corner;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 offset = ivec2(i & 1, i >> 1);
-        vec2 w = mix(1.0 - f, f, vec2(offset));
-        if (w.x * w.y > kLeastTap) addTap(h, ivec2(corner) + offset, w.x * w.y, r, geoNormalWs, cosView);
-    }
-    if (h.weight < kLeastTap) {
-        ivec2 nearest = ivec2(floor(at + 0.5));
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                addTap(h, nearest + ivec2(x, y), 1.0, r, geoNormalWs, cosView);
+    ivec2 nearest = ivec2(floor(at + 0.5));
+    int start = (f.x >= 0.5 ? 1 : 0) + (f.y >= 0.5 ? 2 : 0);
+    float left = 1.0; // bilinear weight of the taps to come
+    for (int i = 0; i < kAllTaps; ++i) {
+        ivec2 tap = nearest + ivec2((i - kBilinearTaps) % 3 - 1, (i - kBilinearTaps) / 3 - 1);
+        float weight = 1.0;
+        if (i < kBilinearTaps) {
+            ivec2 offset = ivec2((i ^ start) & 1, (i ^ start) >> 1);
+            vec2 w = mix(1.0 - f, f, vec2(offset));
+            weight = w.x * w.y;
+            left -= weight;
+            tap = ivec2(corner) + offset;
+        }
+        if (weight > kLeastTap) addTap(h, tap, weight, r, geoNormalWs, cosView);
+        if (h.weight >= kLeastTap && left <= kLeastTap) break;
     }
     if (h.weight > 0.0) {
         float scale = 1.0 / h.weight;
@@ -198,7 +206,7 @@ Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums su
 }
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     vec4 diffuse = vec4(0.0), specular = vec4(0.0), moments = vec4(0.0), trace = vec4(0.0);

@@ -20,7 +20,7 @@ const float kDarkest = 0.01;   // of display white: errors of darker pixels are 
 const float kBegin = 4.0;      // times settleError: where the mean begins to show
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     vec4 mean = texelFetch(meanColor, at, 0);

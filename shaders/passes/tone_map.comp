@@ -26,7 +26,7 @@ vec3 shownColor(uvec2 pixel) {
 }
 
 void main() {
-    uvec2 pixel = dispatchedOutputPixel();
+    uvec2 pixel = streamedOutputPixel();
     if (!isInOutput(pixel)) return;
     vec3 color = max(shownColor(pixel), vec3(0.0));
     if (kToneMap == TONE_MAP_NEUTRAL) color = toneMapNeutral(color);
