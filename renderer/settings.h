@@ -49,8 +49,8 @@ struct Settings {
     Noise noise = Noise::Blue;
     bool compactRays = true;
     bool guiding = true;
-    int listLength = 32;
-    int listMemory = 8;
+    int listLength = 12;
+    int listMemory = 3;
     bool areaMasks = true;
     double maskHiddenShare = 0.1;
     double hiddenShare = 0.2;

@@ -4,10 +4,14 @@
 #define KILOLUX_LIB_ENVIRONMENT_BRDF_GLSL
 #include "../math/ltc.glsl"
 
-// Never 0, so that it can be divided by.
+// Of LtcLobe::albedo. Never 0, so that it can be divided by.
+vec3 environmentBrdf(vec2 albedo, vec3 f0) {
+    return max(f0 * albedo.x + vec3(albedo.y), vec3(1.0e-3));
+}
+
 vec3 environmentBrdf(float noV, float roughness, vec3 f0) {
     vec4 scales = ltcLookup1(ltcUv(noV, roughness));
-    return max(f0 * scales.y + vec3(scales.z), vec3(1.0e-3));
+    return environmentBrdf(scales.yz, f0);
 }
 
 #endif

@@ -65,7 +65,7 @@ KX_INLINE bool lightDipsBelow(LightHot light, ShadingPoint point) {
 
 // The light as the receiver sees it.
 struct LightView {
-    vec3 dirWs;       // unit, about towards the middle of what is seen
+    vec3 dirWs;       // unit, about towards the middle of what is seen; shorter inside a round light
     float solidAngle; // over the emitting area (tube: its side view); 1/m^2; round lights: 1 / distance^2
     float sinLong;    // of half the angle along the long axis
     float sinShort;   // and across
@@ -137,7 +137,8 @@ KX_INLINE LightView lightView(LightExtent e) {
 }
 
 // About the luminance of the unshadowed reflected light; > 0 wherever that is. `diffuseAlbedo` is the luminance
-// of baseColor * (1 - metallic), `f0` that of F0.
+// of baseColor * (1 - metallic), `f0` that of F0. Directions are only met in products with the normal, the view
+// and the light's long axis, so that the lobe needs no vectors.
 KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0) {
     float intensity = luminance(light.intensity);
     LightExtent e = lightExtent(light, point.positionWs);
@@ -154,26 +155,32 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
         intensity *= square(clamp(cone, 1.0e-4, 1.0));
     }
     LightView view = lightView(e);
+    float noVRaw = dot(point.normalWs, point.viewDirWs);
+    float nDir = dot(point.normalWs, view.dirWs), vDir = dot(point.viewDirWs, view.dirWs);
+    float nLong = dot(point.normalWs, e.longWs), vLong = dot(point.viewDirWs, e.longWs);
+    float dirLong = dot(view.dirWs, e.longWs);
 
     // Cosine over what is above the horizon: a parabola where the light is cut by it.
-    float cosine = dot(point.normalWs, view.dirWs);
-    float sine = view.sinLong * abs(dot(e.longWs, point.normalWs)) + view.sinShort;
-    float cut = clamp(cosine + sine, 0.0, 2.0 * sine);
-    float diffuse = max(cosine - sine, 0.0) + 0.25 * cut * cut / max(sine, 1.0e-6) + 1.0e-5 + 1.0e-3 * sine;
+    float sine = view.sinLong * abs(nLong) + view.sinShort;
+    float cut = clamp(nDir + sine, 0.0, 2.0 * sine);
+    float diffuse = max(nDir - sine, 0.0) + 0.25 * cut * cut / max(sine, 1.0e-6) + 1.0e-5 + 1.0e-3 * sine;
 
-    // The lobe sees the light's point nearest to the mirror direction, and is as wide as both together.
-    vec3 mirrorDir = point.normalWs * (2.0 * dot(point.normalWs, point.viewDirWs)) - point.viewDirWs;
-    vec3 aside = mirrorDir - view.dirWs * dot(mirrorDir, view.dirWs);
-    float along = dot(aside, e.longWs);
-    vec3 across = aside - e.longWs * along;
-    float nearer = min(view.sinShort * inversesqrt(max(dot(across, across), 1.0e-12)), 1.0);
-    vec3 toLobe = view.dirWs + e.longWs * clamp(along, -view.sinLong, view.sinLong) + across * nearer;
-    toLobe = toLobe * inversesqrt(max(dot(toLobe, toLobe), 1.0e-12));
-    float noL = dot(point.normalWs, toLobe);
+    // The lobe sees the light's point nearest to the mirror direction m, and is as wide as both together:
+    // toLobe = dir + long * shift + across * nearer, with across = m - dir * dot(m, dir) - long * along.
+    float mDir = 2.0 * noVRaw * nDir - vDir;
+    float along = 2.0 * noVRaw * nLong - vLong - mDir * dirLong;
+    float across2 = max(1.0 - mDir * mDir - along * along, 1.0e-12);
+    float nearer = min(view.sinShort * inversesqrt(across2), 1.0);
+    float shift = clamp(along, -view.sinLong, view.sinLong);
+    float nAcross = noVRaw - mDir * nDir - along * nLong;
+    float vAcross = 2.0 * noVRaw * noVRaw - 1.0 - mDir * vDir - along * vLong;
+    float length2 = 1.0 + shift * shift + across2 * nearer * nearer + 2.0 * dirLong * (shift - nearer * along);
+    float invLength = inversesqrt(max(length2, 1.0e-6));
+    float noL = (nDir + nLong * shift + nAcross * nearer) * invLength;
+    float loV = (vDir + vLong * shift + vAcross * nearer) * invLength;
     // With h the sum of both directions: dot(h, h) = 2 + 2 loV, and all divisions of D and V in one.
-    float loV = dot(toLobe, point.viewDirWs);
     float half2 = max(2.0 + 2.0 * loV, 1.0e-6);
-    float noHalf = noL + dot(point.normalWs, point.viewDirWs);
+    float noHalf = noL + noVRaw;
     float awry = saturate(1.0 - 0.5 * sqrt(half2)); // from Schlick's Fresnel term
     float wide = min(point.alpha + 0.25 * (view.sinLong + view.sinShort), 1.0);
     float a2 = wide * wide;
@@ -184,6 +191,7 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
     float lobe = a2 * half2 * half2 * facing * (0.5 * KX_INV_PI) /
                  max(d * d * mix(2.0 * facing * point.noV, facing + point.noV, wide), 1.0e-20);
     float specular = lobe * mix(f0, 1.0, square(awry * awry) * awry);
+
     return intensity * view.solidAngle * (diffuseAlbedo * KX_INV_PI * diffuse + specular);
 }
 

@@ -28,7 +28,7 @@ layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
 
 const uint kPixels = RAY_TILE_PX * RAY_TILE_PX;
-const uint kBuckets = 64u;
+const uint kBuckets = 256u;
 const uint kNoBucket = 0xffffffffu;
 
 shared uint buckets[kPixels];
@@ -36,7 +36,7 @@ shared uint places[kBuckets]; // rays of a bucket, then where the next one of it
 
 // Eight successive pixels are a block of 4 x 2, so that rays of one light keep near ones together.
 uvec2 pixelInTile(uint at) {
-    return uvec2((at & 3u) + 4u * (at >> 3u & 3u), (at >> 2u & 1u) + 2u * (at >> 5u));
+    return uvec2((at & 3u) + 4u * (at >> 3u & 7u), (at >> 2u & 1u) + 2u * (at >> 6u));
 }
 
 // The bucket of a pixel's ray, kNoBucket without one.

@@ -22,8 +22,8 @@ layout(rgba16f) writeonly uniform image2D denoisedDiffuseOut;
 layout(rgba16f) writeonly uniform image2D denoisedSpecularOut;
 
 const float kNewFrames = 4.0;    // up to which a history counts as new
-const float kTaps = 8.0;
-const float kTapsNew = 16.0;     // where it is new
+const float kTaps = 6.0;
+const float kTapsNew = 12.0;     // where it is new
 const float kDeviations = 1.0;   // apart at which two pixels mix by half
 const float kDarkest = 1.0e-3;   // of display white: noise below is not seen
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888); // the golden angle

@@ -125,6 +125,7 @@ Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory, int tapS
     ivec2 size = ivec2(frame.size), previousSize = ivec2(frame.previousSize);
     for (int y = -2; y <= 2; y += tapStep) {
         for (int x = -2; x <= 2; x += tapStep) {
+            if (tapStep == 2 && (x == 0) != (y == 0)) continue;
             ivec2 at = pixel + ivec2(x, y), then = before + ivec2(x, y);
             if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
             vec4 diffuse = texelFetch(litDiffuse, at, 0);

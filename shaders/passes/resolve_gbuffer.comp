@@ -38,7 +38,7 @@ vec3 motionOf(uint instanceId, vec3 positionWs, vec3 positionLs) {
 const float kHalfMax = 65504.0;
 
 void main() {
-    uvec2 pixel = dispatchedPixel();
+    uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     uvec2 seen = texelFetch(visibility, at, 0).xy;

@@ -49,7 +49,7 @@ void main() {
             diffuse += emission * (lit.diffuse * KX_INV_PI);
             specular += emission * (f0 * lit.specular.x + vec3(lit.specular.y));
         }
-        specular /= environmentBrdf(receiver.point.noV, receiver.point.roughness, f0);
+        if (lobeMade) specular /= environmentBrdf(lobe.albedo, f0);
     }
     imageStore(litDiffuseOut, ivec2(pixel), vec4(diffuse, state.x));
     imageStore(litSpecularOut, ivec2(pixel), vec4(specular, state.y));

@@ -28,7 +28,11 @@ void main() {
         LightSample s;
         bool usable = false;
         vec2 uv = chosen.uv;
-        for (int draw = 0; draw < kMaxDraws && !usable; ++draw) {
+        // A pixel that took its neighbour's choice may have all of the light below its horizon.
+        LightExtent extent = lightExtent(light, receiver.point.positionWs);
+        float highest = dot(receiver.point.normalWs, extent.toCenter) + extentAlong(extent, receiver.point.normalWs);
+        int draws = highest > 0.0 ? kMaxDraws : 0;
+        for (int draw = 0; draw < draws && !usable; ++draw) {
             s = lightSample(light, receiver.point.positionWs, uv);
             usable = s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0;
             // From behind or inside all points are invalid; of a tube seen along its axis only some are.

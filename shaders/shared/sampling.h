@@ -30,7 +30,7 @@ KX_CONST uint RAY_QUARTER_SHIFT = 2u;
 
 // --- List of rays: a word per ray with a light, x | y << 16 of its pixel, by tiles and in them by light
 // -------
-KX_CONST uint RAY_TILE_PX = 16u;
+KX_CONST uint RAY_TILE_PX = 32u;
 KX_CONST uint RAY_GROUP = 64u; // rays that a workgroup takes
 
 // How long the list is. The first three words are the arguments of an indirect dispatch over it.
