@@ -8,8 +8,8 @@
 #include "selection_types.glsl"
 
 const float KX_BELOW_ONE = 0.99999994;  // the largest float under 1
-const float KX_LEAST_WEIGHT = 1.0e-18;  // far from where dividing by it would give infinities
-const float KX_LEAST_PRODUCT = 1.0e-37; // below that of two of them, and no denormal
+const float KX_LEAST_WEIGHT = 1.0e-20;  // far from where dividing by it would give infinities
+const float KX_PRODUCT_SCALE = 1.0e+10; // of weights: keeps products of two least and of two largest in range
 const float KX_LARGEST_WEIGHT = 1.0e+6; // an exposed luminance of 1e30 has weight 100
 
 KX_INLINE Reservoir emptyReservoir(float number) {
@@ -37,8 +37,9 @@ KX_INLINE void reservoirAdd(INOUT(Reservoir) r, float sumBefore, uint item, floa
     float at = r.number * (sumBefore + weight);
     bool taken = at < weight || sumBefore <= 0.0;
     // One division for both cases: they are a fifth of the cost of a candidate.
-    float rest = taken ? r.before * weight + at * r.weight : (at - weight) * weight;
-    float stretched = rest / max(sumBefore * weight, KX_LEAST_PRODUCT);
+    float scaled = weight * KX_PRODUCT_SCALE;
+    float rest = taken ? r.before * scaled + at * (r.weight * KX_PRODUCT_SCALE) : (at - weight) * scaled;
+    float stretched = rest * KX_PRODUCT_SCALE / max(sumBefore * KX_PRODUCT_SCALE * scaled, KX_LEAST_WEIGHT);
     r.number = min(sumBefore > 0.0 ? stretched : r.number, KX_BELOW_ONE);
     r.item = taken ? item : r.item;
     r.weight = taken ? weight : r.weight;

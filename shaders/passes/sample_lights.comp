@@ -49,6 +49,7 @@ void main() {
     }
     countAll(COUNTER_CANDIDATES, state.candidates);
     countAll(COUNTER_SAMPLES, chosen);
-    countAll(COUNTER_MISSED, (state.flags & SAMPLE_MISSED) != 0u ? 1u : 0u);
-    countAll(COUNTER_SURFACE_PIXELS, 1u);
+    uint standsFor = atHalf ? 4u : 1u; // pixels of the full resolution
+    countAll(COUNTER_MISSED, (state.flags & SAMPLE_MISSED) != 0u ? standsFor : 0u);
+    countAll(COUNTER_SURFACE_PIXELS, standsFor);
 }

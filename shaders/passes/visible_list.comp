@@ -69,25 +69,29 @@ uvec2 seenSample(uvec2 pixel, uint layer) {
 // Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
 uint mergeLayer(uvec2 tile, uint layer, uint from, uint count) {
     uint lane = gl_LocalInvocationID.x;
-    uvec2 seen[kPixelsPerLane];
+    uint slots[kPixelsPerLane], energies[kPixelsPerLane], quartersOf[kPixelsPerLane];
     for (int i = 0; i < kPixelsPerLane; ++i) {
         uint at = uint(i * kLanes) + lane;
-        seen[i] = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer);
+        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer);
+        slots[i] = seen.x;
+        energies[i] = seen.y >> 4u;
+        quartersOf[i] = seen.y & 15u;
     }
-    uint made = 0u, next = 0u, least = 0u;
+    uint made = 0u, next = 0u;
     for (;;) {
         uint mine = kNone;
         for (int i = 0; i < kPixelsPerLane; ++i)
-            if (seen[i].x >= least) mine = min(mine, seen[i].x);
+            mine = min(mine, slots[i]);
         uvec2 before = next < count ? entries[from][next] : uvec2(kNone, 0u);
         uint beforeSlot = before.x == kNone ? kNone : before.x & ENTRY_SLOT_MASK;
         uint slot = min(subgroupMin(mine), beforeSlot);
         if (slot == kNone) break;
         uint quarters = 0u, energy = 0u;
         for (int i = 0; i < kPixelsPerLane; ++i) {
-            if (seen[i].x != slot) continue;
-            quarters |= seen[i].y & 15u;
-            energy += seen[i].y >> 4u;
+            bool same = slots[i] == slot;
+            quarters |= same ? quartersOf[i] : 0u;
+            energy += same ? energies[i] : 0u;
+            slots[i] = same ? kNone : slots[i]; // done with
         }
         quarters = subgroupOr(quarters);
         energy = subgroupAdd(energy);
@@ -105,7 +109,6 @@ uint mergeLayer(uvec2 tile, uint layer, uint from, uint count) {
         }
         if (lane == 0u) entries[1u - from][made] = uvec2(packEntry(e), energy);
         ++made;
-        least = slot + 1u;
     }
     subgroupMemoryBarrierShared();
     subgroupBarrier();
