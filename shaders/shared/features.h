@@ -31,7 +31,8 @@ const int CHOICE_COUNT_SAMPLES = 39;     // pixels may be without a sample in a 
 const int CHOICE_SPARSE_NEIGHBOURS = 41; // every second row and column of 5 x 5: fetches are dear
 const int CHOICE_LANES = 40;             // of a subgroup, for passes whose workgroup is one; see gpu/pass.h
 const int CHOICE_COMPACT_RAYS = 42;      // trace_samples and shade_samples walk the list of compact_rays
-const int CHOICE_PIXEL_ROWS = 43;        // passes over images go row by row instead of tile by tile (lib/dispatch.glsl)
+const int CHOICE_PIXEL_ROWS =
+    43; // passes over images go row by row instead of tile by tile (lib/dispatch.glsl)
 
 const int HALF_OFF = 0;
 const int HALF_CHECKERBOARD = 1;
