@@ -13,6 +13,7 @@ struct FrameSoFar {
     std::set<std::pair<InputEvent::Kind, int>> flipped; // keys and buttons
     bool pressedAny = false;                            // a key, button or wheel step
     bool pointerActed = false;                          // a button or wheel step: the pointer must not move
+    bool pointerMoved = false;                          // a drag must see this before it ends
     bool text = false;
     bool commandKey = false; // one that writes nothing, as Backspace
 
@@ -24,7 +25,8 @@ struct FrameSoFar {
         case Kind::Wheel:
             return flipped.empty() || !pointerActed;
         case Kind::Button:
-            return !flipped.contains({event.kind, event.code}) && !pointerActed;
+            return !flipped.contains({event.kind, event.code}) && !pointerActed &&
+                   (event.down || !pointerMoved);
         case Kind::Key:
             // A modifier is a state of the frame: it must not reach what came before it.
             if (event.modifier && pressedAny) return false;
@@ -42,6 +44,7 @@ struct FrameSoFar {
         if (flips) flipped.insert({event.kind, event.code});
         pressedAny |= (flips && !event.modifier) || event.kind == Kind::Wheel;
         pointerActed |= event.kind == Kind::Button || event.kind == Kind::Wheel;
+        pointerMoved |= event.kind == Kind::Move;
         text |= event.kind == Kind::Text;
         commandKey |= event.kind == Kind::Key && event.down && !event.writes && !event.modifier;
     }

@@ -221,17 +221,19 @@ void takeOpened(Desk& desk) {
 
 } // namespace
 
-void pollFileTasks(Desk& desk) {
+bool pollFileTasks(Desk& desk) {
     FileTasks& files = *desk.files;
     std::erase_if(files.abandoned,
                   [](const auto& task) { return task.wait_for(0s) == std::future_status::ready; });
-    if (files.opening.valid() && files.opening.wait_for(0s) == std::future_status::ready) takeOpened(desk);
-    if (!desk.session || desk.nowS < files.nextLookS) return;
+    const bool opened = files.opening.valid() && files.opening.wait_for(0s) == std::future_status::ready;
+    if (opened) takeOpened(desk);
+    if (!desk.session || desk.nowS < files.nextLookS) return opened;
     files.nextLookS = desk.nowS + kLookEveryS;
     const fs::file_time_type time = writeTime(desk.session->path());
-    if (time == files.seenWriteTime) return;
+    if (time == files.seenWriteTime) return opened;
     files.seenWriteTime = time;
     files.changedOnDisk = desk.session->changedOnDisk();
+    return true;
 }
 
 } // namespace kilolux

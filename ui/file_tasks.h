@@ -72,7 +72,7 @@ void askToOpen(Desk& desk);
 void askToSaveAs(Desk& desk);
 void listFolder(FileTasks& files, const std::filesystem::path& folder);
 
-// Once per UI frame: takes what has been opened, looks at the file on disk now and then.
-void pollFileTasks(Desk& desk);
+// Takes what has been opened, looks at the file on disk now and then; true: there is something new to show.
+bool pollFileTasks(Desk& desk);
 
 } // namespace kilolux

@@ -18,9 +18,11 @@ namespace {
 constexpr double kTopUnits = 40.0, kBottomUnits = 28.0;
 constexpr double kLeastViewportUnits = 200.0; // narrower windows hide a column
 
-constexpr ImGuiWindowFlags kRegion =
-    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags kRegion = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                     ImGuiWindowFlags_NoSavedSettings;
+// Windows with this flag lie below all others.
+constexpr ImGuiWindowFlags kBehind = ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 bool beginRegion(const char* name, const ViewportRect& rect, ImU32 color, ImGuiWindowFlags flags = 0) {
     ImGui::SetNextWindowPos({float(rect.x), float(rect.y)});
@@ -201,24 +203,23 @@ void drawLayout(Desk& desk, const Layout& layout) {
     drawOverlays(desk, layout.viewport);
     if (!desk.session) drawFirstRun(desk, layout.viewport);
     if (layout.top.height > 0) {
-        beginRegion("top", layout.top, theme::kBars, ImGuiWindowFlags_NoScrollbar);
+        beginRegion("top", layout.top, theme::kBars, kBehind | ImGuiWindowFlags_NoScrollbar);
         drawTopBar(desk);
         ImGui::End();
-        beginRegion("bottom", layout.bottom, theme::kBars, ImGuiWindowFlags_NoScrollbar);
+        beginRegion("bottom", layout.bottom, theme::kBars, kBehind | ImGuiWindowFlags_NoScrollbar);
         drawStatusLine(desk);
         ImGui::End();
     }
     if (layout.left.width > 0) {
-        beginRegion("left", layout.left, theme::kBackground);
+        beginRegion("left", layout.left, theme::kBackground, kBehind);
         drawLightList(desk);
         ImGui::End();
     }
     if (layout.right.width > 0) {
-        beginRegion("right", layout.right, theme::kBackground, ImGuiWindowFlags_NoScrollbar);
+        beginRegion("right", layout.right, theme::kBackground, kBehind | ImGuiWindowFlags_NoScrollbar);
         drawRightColumn(desk);
         ImGui::End();
     }
-    // Last, so that they lie above the columns.
     if (layout.left.width > 0)
         remembered.leftWidth += drawEdge(desk, "edge.left", layout.left.width, layout.left);
     if (layout.right.width > 0)

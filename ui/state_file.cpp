@@ -75,6 +75,7 @@ std::string stateText(const Desk& desk, const WindowTimes& times) {
         {"places", std::move(places)},
         {"frames", times.frames},
         {"events", times.eventsTaken},
+        {"framesDue", times.framesDue},
         {"slowFrames", times.slowFrames},
         {"longestFrameMs", times.longestFrameMs},
         {"frameMs", times.frameMs},

@@ -15,7 +15,8 @@ struct WindowTimes {
     double longestFrameMs = 0.0;
     std::vector<double> frameMs;    // of the newest ones
     std::vector<double> responseMs; // from an input to the picture that answers it
-    std::uint64_t eventsTaken = 0;  // input events since the start
+    std::uint64_t eventsTaken = 0;  // keys, buttons and wheel steps since the start
+    int framesDue = 0;              // UI frames that the last event or picture still calls for
 };
 
 std::string stateText(const Desk& desk, const WindowTimes& times);

@@ -215,9 +215,11 @@ void Window::drawFrame(const std::vector<InputEvent>& events, double dueMs) {
     io.DeltaTime = float(std::clamp((beginMs - lastFrameMs_) / 1000.0, 0.001, 0.1));
     lastFrameMs_ = beginMs;
     feedImGui(events);
-    times_.eventsTaken += events.size();
+    times_.eventsTaken +=
+        std::uint64_t(std::count_if(events.begin(), events.end(), [](const InputEvent& event) {
+            return event.kind != InputEvent::Kind::Move && event.kind != InputEvent::Kind::Text;
+        }));
     takePicture();
-    pollFileTasks(desk_);
     const Layout layout = makeLayout(desk_, windowPx_);
     followSize(layout.viewport);
     desk_.places.clear();
@@ -272,7 +274,10 @@ std::optional<Error> Window::run() {
             glfwWaitEventsTimeout(0.2);
             continue;
         }
-        if (!input_.queue.empty() || std::exchange(input_.changed, false) || renderThread_->hasNews())
+        desk_.nowS = (steadyMs() - startMs_) / 1000.0;
+        const bool filesChanged = pollFileTasks(desk_);
+        if (filesChanged || !input_.queue.empty() || std::exchange(input_.changed, false) ||
+            renderThread_->hasNews())
             framesDue_ = kFramesPerEvent;
         while (framesDue_ > 0 && !failed_) {
             const std::vector<InputEvent> events = input_.queue.takeFrame();
@@ -285,6 +290,7 @@ std::optional<Error> Window::run() {
             if (input_.queue.empty()) break;
             framesDue_ = kFramesPerEvent;
         }
+        times_.framesDue = framesDue_;
         if (state_.isWanted()) state_.write(stateText(desk_, times_));
     }
     remember();

@@ -43,7 +43,7 @@ class WindowCase(unittest.TestCase):
     def setUp(self):
         self.home = tempfile.mkdtemp(prefix="kilolux-home-")
         self.windows = []
-        self.remember(meanFrames=4)  # a still picture is soon settled
+        self.remember()
 
     def tearDown(self):
         for window in self.windows:
@@ -51,7 +51,8 @@ class WindowCase(unittest.TestCase):
         shutil.rmtree(self.home, ignore_errors=True)
 
     def remember(self, **values):
-        """Writes what a window finds as remembered from last time."""
+        """Writes what a window finds as remembered from last time: small pictures, soon settled, and `values`."""
+        values = {"meanFrames": 4, "mostPixels": 15000, **values}
         folder = os.path.join(self.home, "config", "kilolux")
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "window.json"), "w") as file:

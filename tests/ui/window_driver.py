@@ -208,18 +208,8 @@ class Window:
         return self.state()["places"][name]
 
     def settle(self):
-        """Until every event sent so far has been answered: a mark of the pointer's arrival."""
-        state = self.state()
-        before = state["frames"]
-        seen = [before]
-
-        def still():
-            time.sleep(0.03)
-            now = self.state()["frames"]
-            steady = now == seen[0]
-            seen[0] = now
-            return steady or now - before > 30
-        wait_for(still, "the window to come to rest")
+        """Until the frames that the events so far called for have been drawn."""
+        self.wait(lambda s: s["framesDue"] == 0, "the window to come to rest")
 
     def screenshot(self, path, rect=None):
         width, height, rows = self.screen.pixels()
@@ -242,7 +232,7 @@ class Window:
         return at
 
     def _events(self, action):
-        """Runs the action and waits until the program has seen the events that came from it."""
+        """Runs the action and waits until the program has seen the keys, buttons and wheel steps of it."""
         before = self.state()["events"]
         count = action()
         self.wait(lambda s: s["events"] >= before + count, f"{count} events to arrive")
@@ -250,8 +240,9 @@ class Window:
     def move(self, at):
         self.screen.move(*self._position(at))
 
-    def click(self, at, button=LEFT, hold=(), times=1):
-        """At a place's name or a position in pixels. `hold`: keys that are down meanwhile."""
+    def click(self, at, button=LEFT, hold=(), times=1, ends=False):
+        """At a place's name or a position in pixels. `hold`: keys that are down meanwhile. `ends`: the program may
+        end by it, nothing is waited for."""
         position = self._position(at)
 
         def act():
@@ -265,6 +256,9 @@ class Window:
                 self.screen.key(key, False)
             wheel = button in (WHEEL_UP, WHEEL_DOWN)
             return 2 * len(hold) + (times if wheel else 2 * times)
+        if ends:
+            act()
+            return
         self._events(act)
         self.settle()
 
@@ -305,6 +299,7 @@ class Window:
 
     def type(self, text):
         def act():
+            count = 0
             for character in text:
                 shift = character.isupper() or character in _SHIFTED
                 if shift:
@@ -314,7 +309,8 @@ class Window:
                 self.screen.key(name, False)
                 if shift:
                     self.screen.key("Shift_L", False)
-            return 2 * len(text)
+                count += 4 if shift else 2
+            return count
         self._events(act)
         self.settle()
 

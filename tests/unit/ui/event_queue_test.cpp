@@ -63,9 +63,13 @@ TEST(EventQueue, AKeyPressedAndReleasedInOnePollIsSeenDown) {
 
 TEST(EventQueue, AClickLandsWhereThePointerWas) {
     // The moves before the press belong to it, those behind it must not move it.
-    EXPECT_EQ(frames({move(1), move(2), button(true, 2), move(9), button(false, 9)}), (Counts{3, 2}));
+    EXPECT_EQ(frames({move(1), move(2), button(true, 2), move(9), button(false, 9)}), (Counts{3, 1, 1}));
     EXPECT_EQ(frames({button(true, 2), button(false, 2), button(true, 2), button(false, 2)}),
               (Counts{1, 1, 1, 1}));
+}
+
+TEST(EventQueue, ADragSeesItsLastMoveBeforeItEnds) {
+    EXPECT_EQ(frames({button(true, 1), move(5), move(9), button(false, 9)}), (Counts{1, 2, 1}));
 }
 
 TEST(EventQueue, AModifierReachesNoEarlierKey) {
