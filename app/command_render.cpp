@@ -4,6 +4,7 @@
 
 #include "renderer/document/gltf_import.h"
 
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <limits>
@@ -66,12 +67,18 @@ Problem checkArguments(Arguments& arguments) {
     options.height = size.value().height;
     if (Problem p = as(ExitCode::BadInput, checkChoice("method", options.method, Renderer::methods())))
         return p;
-    if (Problem p = as(ExitCode::BadInput, checkChoice("view", options.view, Renderer::views()))) return p;
+    const bool ofPass = options.view.starts_with("pass:"); // checked when the frame has run
+    if (Problem p =
+            as(ExitCode::BadInput, checkChoice("view", ofPass ? "" : options.view, Renderer::views())))
+        return p;
     for (const std::string& set : arguments.sets)
         if (Problem p = as(ExitCode::BadInput, applySetting(options.settings, set))) return p;
     if (arguments.output.empty()) {
         const std::string stem = fs::path(arguments.scene).stem().string();
-        arguments.output = stem + (options.view.empty() ? "" : "-" + options.view) + ".png";
+        std::string view = options.view;
+        std::replace_if(
+            view.begin(), view.end(), [](char c) { return c == ':' || c == '/'; }, '-');
+        arguments.output = stem + (view.empty() ? "" : "-" + view) + ".png";
     }
     const Result<PictureFormat> format = pictureFormat(arguments.output);
     if (!format) return Failure{ExitCode::BadInput, format.error()};
@@ -207,7 +214,10 @@ Command addRenderCommand(CLI::App& app) {
         ->capture_default_str();
     render->add_option("--method", a.options.method, "how direct light is found (see --list)")
         ->type_name("NAME");
-    render->add_option("--view", a.options.view, "what the picture shows (see --list)")->type_name("NAME");
+    render
+        ->add_option("--view", a.options.view,
+                     "what the picture shows (see --list), or pass:NAME for what a pass wrote")
+        ->type_name("NAME");
     render->add_option("--camera", a.options.camera, "a camera of the scene")->type_name("NAME");
     render->add_option("--set", a.sets, "a setting, any number of times (see --list)")
         ->allow_extra_args(false)

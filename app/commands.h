@@ -15,6 +15,9 @@ using Command = std::function<ExitCode()>;
 // kilolux render SCENE -o OUT: a picture, statistics and targets to files.
 Command addRenderCommand(CLI::App& app);
 
+// kilolux probe SCENE --pixel X,Y: everything about one pixel.
+Command addProbeCommand(CLI::App& app);
+
 // kilolux edit [SCENE]: the window, or a list of edits.
 Command addEditCommand(CLI::App& app);
 

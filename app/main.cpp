@@ -74,6 +74,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     std::string scene;
     app.add_option("SCENE", scene, "a .gltf or .glb file to open in the window");
     const Command render = addRenderCommand(app);
+    const Command probe = addProbeCommand(app);
     const Command edit = addEditCommand(app);
     try {
         app.parse(argc, argv);
@@ -91,6 +92,7 @@ ExitCode runCommandLine(int argc, char** argv) {
         return ExitCode::Done;
     }
     if (app.got_subcommand("render")) return render();
+    if (app.got_subcommand("probe")) return probe();
     if (app.got_subcommand("edit")) return edit();
     if (!scene.empty() && !isSceneName(scene)) {
         printError(unexpectedArgument(app, scene, helpHint(app)));

@@ -64,7 +64,7 @@ const gpu::Image& shownPicture(const Targets& targets, const FramePlan& plan) {
 }
 
 void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan, const gpu::Bindings& world,
-                 std::uint32_t framesBefore, float depthScaleM) {
+                 std::uint32_t framesBefore, const shared::ViewConstants& viewScale) {
     const Targets& targets = frame.targets;
     if (passes.rasterVisibility) passes.rasterVisibility->record(frame);
     if (passes.traceVisibility) passes.traceVisibility->record(frame, world);
@@ -100,7 +100,8 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
     if (passes.accumulate) passes.accumulate->record(frame, framesBefore);
     if (passes.settle) passes.settle->record(frame);
     passes.toneMap.record(frame, shownPicture(targets, plan));
-    if (passes.debugView) passes.debugView->record(frame, depthScaleM);
+    if (plan.view != shared::VIEW_FINAL)
+        passes.debugView->record(frame, viewScale, shownPicture(targets, plan));
 }
 
 } // namespace kilolux

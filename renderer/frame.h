@@ -59,6 +59,7 @@ struct FramePasses {
     std::unique_ptr<SettlePass> settle;
     ToneMapPass toneMap;
     std::unique_ptr<DebugViewPass> debugView;
+    std::unique_ptr<ProbePass> probe; // made when first asked for
 };
 
 // The filters that the settings ask for, and no others.
@@ -73,6 +74,6 @@ shared::DenoisingConstants denoisingConstants(const Settings& settings);
 // Records one frame. `framesBefore`: frames that the running mean holds already. `world`: bindings of the
 // tracer.
 void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan, const gpu::Bindings& world,
-                 std::uint32_t framesBefore, float depthScaleM);
+                 std::uint32_t framesBefore, const shared::ViewConstants& viewScale);
 
 } // namespace kilolux

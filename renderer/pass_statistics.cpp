@@ -6,6 +6,7 @@
 #include <array>
 #include <fmt/format.h>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <time.h>
 #include <unistd.h>
@@ -53,27 +54,43 @@ void describeFeatures(const gpu::SpecValues& features, FrameStatistics& statisti
     }
 }
 
-void describePasses(const gpu::PassTimes& times, const std::vector<std::string_view>& lighting,
+std::vector<std::size_t> runCounts(const gpu::PassTimes& times) {
+    std::vector<std::size_t> counts;
+    for (const gpu::PassTimes::Entry& entry : times.entries())
+        counts.push_back(entry.ms.size());
+    return counts;
+}
+
+FrameTimes frameTimes(const gpu::PassTimes& times, const std::vector<std::size_t>& countsBefore) {
+    FrameTimes result;
+    // A pass may run several times a frame (pyramid levels): its time is their sum.
+    for (std::size_t i = 0; i < times.entries().size(); ++i) {
+        const gpu::PassTimes::Entry& entry = times.entries()[i];
+        const std::size_t before = i < countsBefore.size() ? countsBefore[i] : 0;
+        if (entry.ms.size() == before) continue; // it did not run
+        const double sum = std::accumulate(entry.ms.begin() + std::ptrdiff_t(before), entry.ms.end(), 0.0);
+        result.emplace_back(entry.name, sum);
+    }
+    return result;
+}
+
+void describePasses(const std::deque<FrameTimes>& frames, const std::vector<std::string_view>& lighting,
                     FrameStatistics& statistics) {
     statistics.frameMs = statistics.directLightingMs = 0.0;
-    for (const gpu::PassTimes::Entry& entry : times.entries()) {
-        // A pass may run several times a frame (pyramid levels): its time is their sum.
-        const std::size_t perFrame =
-            std::max<std::size_t>(1, entry.ms.size() / std::size_t(statistics.frames));
-        std::vector<double> frames;
-        for (std::size_t i = 0; i + perFrame <= entry.ms.size(); i += perFrame) {
-            double sum = 0.0;
-            for (std::size_t j = 0; j < perFrame; ++j)
-                sum += entry.ms[i + j];
-            frames.push_back(sum);
-        }
-        if (frames.empty()) continue;
-        const double median = percentile(frames, 0.5);
-        statistics.passes.push_back({entry.name, median, percentile(frames, 0.95)});
+    if (frames.empty()) return;
+    // In the order of the frame that has most of them: some passes run now and then.
+    const FrameTimes& order = *std::max_element(
+        frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    for (const auto& [name, unused] : order) {
+        std::vector<double> values;
+        for (const FrameTimes& frame : frames)
+            for (const auto& [pass, ms] : frame)
+                if (pass == name) values.push_back(ms);
+        const double median = percentile(values, 0.5);
+        statistics.passes.push_back({name, median, percentile(values, 0.95)});
         statistics.frameMs += median;
-        if (std::find(lighting.begin(), lighting.end(), entry.name) != lighting.end()) {
+        if (std::find(lighting.begin(), lighting.end(), name) != lighting.end())
             statistics.directLightingMs += median;
-        }
     }
 }
 

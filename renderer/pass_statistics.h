@@ -4,15 +4,23 @@
 #include "renderer/gpu/pass.h"
 #include "renderer/statistics.h"
 
+#include <deque>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace kilolux {
 
 void describeFeatures(const gpu::SpecValues& features, FrameStatistics& statistics);
 
-// Medians over all frames. `lighting` names the passes that count as direct lighting.
-void describePasses(const gpu::PassTimes& times, const std::vector<std::string_view>& lighting,
+// Milliseconds of a frame's passes, each name once.
+using FrameTimes = std::vector<std::pair<std::string, double>>;
+std::vector<std::size_t> runCounts(const gpu::PassTimes& times); // of each pass so far
+FrameTimes frameTimes(const gpu::PassTimes& times, const std::vector<std::size_t>& countsBefore);
+
+// Medians over the frames that a pass ran in. `lighting` names the passes that count as direct lighting.
+void describePasses(const std::deque<FrameTimes>& frames, const std::vector<std::string_view>& lighting,
                     FrameStatistics& statistics);
 
 void describeMemory(const gpu::MemoryAllocator& memory, FrameStatistics& statistics);

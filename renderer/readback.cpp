@@ -14,8 +14,8 @@ struct Layout {
     int channels;
 };
 
-Layout layoutOf(const gpu::Image& image) {
-    switch (image.desc().format) {
+Layout layoutOf(VkFormat format, std::string_view name) {
+    switch (format) {
     case VK_FORMAT_R32_SFLOAT:
     case VK_FORMAT_D32_SFLOAT:
         return {Channel::Float32, 1};
@@ -34,7 +34,7 @@ Layout layoutOf(const gpu::Image& image) {
     case VK_FORMAT_R8G8B8A8_UNORM:
         return {Channel::Unorm8, 4};
     default:
-        gpu::failContract(fmt::format("image '{}' has no float form", image.desc().name));
+        gpu::failContract(fmt::format("image '{}' has no float form", name));
     }
 }
 
@@ -48,9 +48,14 @@ T valueAt(const std::vector<std::byte>& bytes, std::size_t i) {
 } // namespace
 
 FloatImage toFloatImage(const gpu::Image& image) {
-    const Layout layout = layoutOf(image);
-    const std::vector<std::byte> bytes = image.download();
-    FloatImage result{int(image.desc().width), int(image.desc().height), layout.channels, {}};
+    const gpu::ImageDesc& desc = image.desc();
+    return toFloatImage(gpu::Captured{desc.name, desc.format, desc.width, desc.height, image.download()});
+}
+
+FloatImage toFloatImage(const gpu::Captured& image) {
+    const Layout layout = layoutOf(image.format, image.name);
+    const std::vector<std::byte>& bytes = image.bytes;
+    FloatImage result{int(image.width), int(image.height), layout.channels, {}};
     result.pixels.resize(std::size_t(result.width) * std::size_t(result.height) *
                          std::size_t(layout.channels));
     for (std::size_t i = 0; i < result.pixels.size(); ++i) {

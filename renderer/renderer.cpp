@@ -1,7 +1,6 @@
 // The renderer's public face and its statistics; see renderer.h.
 #include "renderer/renderer.h"
 
-#include "renderer/pass_statistics.h"
 #include "renderer/readback.h"
 #include "renderer/renderer_impl.h"
 #include "renderer/views.h"
@@ -32,9 +31,12 @@ Result<Picture> Renderer::Impl::render(const RenderProgress& progress) {
     compilePipelines();
     const double beginMs = nowMs();
     for (int i = 0; i < options.frames; ++i) {
+        const std::vector<std::size_t> timed = runCounts(times);
         runFrame(std::uint32_t(i), {options.width, options.height}, times);
+        recentTimes.push_back(frameTimes(times, timed));
         if (i == 0) statistics.startupMs = processAgeMs();
         if (progress && !progress(i + 1, options.frames)) return Error{"cancelled"};
+        if (viewProblem) return *viewProblem;
     }
     Picture picture = readPicture();
     statistics.wallMs = nowMs() - beginMs;
@@ -59,6 +61,12 @@ void Renderer::Impl::describe() {
     statistics.seed = options.seed;
     statistics.lights = scene.lights.size();
     statistics.historyReset = lastHistoryReset;
+    statistics.view = plan.view == shared::VIEW_FINAL && outputView
+                          ? fmt::format("pass:{}/{}", outputView->pass, passOutput ? passOutput->name : "")
+                          : viewChoices()[std::size_t(plan.view)].name;
+    statistics.legend = legend;
+    statistics.viewProblem = viewProblem ? viewProblem->message : "";
+    statistics.viewOutputs = passOutput ? passOutput->names : std::vector<std::string>{};
     describeCounters();
     statistics.triangles = gpuScene->triangles();
     statistics.exposureEv100 = exposureEv100;
@@ -70,7 +78,7 @@ void Renderer::Impl::describe() {
     statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;
     statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
     describeFeatures(used, statistics);
-    describePasses(times,
+    describePasses(recentTimes,
                    {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples",
                     "compact_rays", "trace_samples", "visible_list", "shade_samples", "denoise_temporal",
                     "denoise_spatial"},
@@ -108,21 +116,24 @@ Result<Picture> Renderer::render(const RenderProgress& progress) {
     }
 }
 
+std::optional<Error> Renderer::Impl::renderFrame() {
+    const std::vector<std::size_t> timed = runCounts(times);
+    runFrame(nextFrame, {options.width, options.height}, times);
+    if (interrupted) return std::nullopt;
+    ++nextFrame;
+    recentTimes.push_back(frameTimes(times, timed));
+    if (recentTimes.size() > kTimedFrames) recentTimes.pop_front();
+    times.keepNewest(kTimedFrames);
+    options.frames = int(nextFrame);
+    describe();
+    const std::vector<std::string> messages = device.takeValidationMessages();
+    if (!messages.empty()) return Error{fmt::format("Vulkan validation: {}", messages.front())};
+    return std::nullopt;
+}
+
 std::optional<Error> Renderer::renderFrame() {
     try {
-        Impl& impl = *impl_;
-        impl.runFrame(impl.nextFrame++, {impl.options.width, impl.options.height}, impl.times);
-        if (impl.interrupted) {
-            --impl.nextFrame;
-            return std::nullopt;
-        }
-        constexpr std::size_t kKeptTimes = 64; // a window runs for hours
-        impl.times.keepNewest(kKeptTimes);
-        impl.options.frames = int(impl.nextFrame);
-        impl.describe();
-        const std::vector<std::string> messages = impl.device.takeValidationMessages();
-        if (!messages.empty()) return Error{fmt::format("Vulkan validation: {}", messages.front())};
-        return std::nullopt;
+        return impl_->renderFrame();
     } catch (const gpu::DeviceError& error) {
         return Error{error.what()};
     }
@@ -175,16 +186,9 @@ std::optional<Error> Renderer::setSettings(const Settings& settings) {
     }
 }
 
-std::optional<Error> Renderer::setView(const std::string& view) {
-    const std::string before = std::exchange(impl_->options.view, view);
+std::optional<Error> Renderer::setView(std::string_view view, const std::optional<ViewRange>& range) {
     try {
-        std::optional<Error> error = impl_->preparePlan();
-        if (error) {
-            impl_->options.view = before;
-            impl_->preparePlan();
-        }
-        impl_->historyReset = "view";
-        return error;
+        return impl_->setView(view, range);
     } catch (const gpu::DeviceError& error) {
         return Error{error.what()};
     }
@@ -210,6 +214,14 @@ std::uint32_t Renderer::meanFrames() const {
 
 std::vector<std::byte> Renderer::displayPixels() const {
     return impl_->targets->display.download();
+}
+
+Result<Probe> Renderer::probe(glm::ivec2 pixel, ProbeDepth depth) {
+    try {
+        return impl_->probe(pixel, depth);
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    }
 }
 
 std::vector<glm::uvec2> Renderer::visibleLists() const {

@@ -4,7 +4,9 @@
 
 #include "renderer/document/result.h"
 #include "renderer/document/scene.h"
+#include "renderer/legend.h"
 #include "renderer/output/picture_file.h"
+#include "renderer/probe.h"
 #include "renderer/settings.h"
 #include "renderer/statistics.h"
 
@@ -38,7 +40,8 @@ struct RenderOptions {
     int frames = 1;
     std::uint32_t seed = 0;
     std::string method; // empty: the first of Renderer::methods()
-    std::string view;   // empty: the first of Renderer::views()
+    std::string view;   // empty: the first of Renderer::views(); or an output of a pass (pass_output.h)
+    std::optional<ViewRange> viewRange; // of the view's scale; else its own
     std::string camera; // name of one of the scene's cameras; empty: the first one, or a derived one
     Settings settings;
     bool keepTargets = false;              // keep what Renderer::targets() reads back
@@ -101,12 +104,19 @@ class Renderer {
     void setRenderScale(double scale); // 0.1 to 1 of the picture's width and height
     // Any other settings; history and targets begin anew. On error the old ones stay.
     std::optional<Error> setSettings(const Settings& settings);
-    // One of views(); history begins anew. On error the old one stays.
-    std::optional<Error> setView(const std::string& view);
     // Pictures of another size, in pixels; history begins anew.
     std::optional<Error> resize(int width, int height);
     // Frames that the running mean holds: it begins anew with every change of what it averages.
     std::uint32_t meanFrames() const;
+
+    // What the next frames show, as RenderOptions::view and viewRange. Pictures and history go on. On error
+    // the old one stays.
+    std::optional<Error> setView(std::string_view view, const std::optional<ViewRange>& range = {});
+
+    // What is known of a pixel of the last frame's picture. Renders a frame first where there is none to look
+    // into: at the start, after changed settings, or when the light grid has just grown. Errors: outside the
+    // picture.
+    Result<Probe> probe(glm::ivec2 pixel, ProbeDepth depth = ProbeDepth::Lights);
 
     // For tests: the visible light lists that the next frame finds, LIST_TEXELS texels a tile
     // (shared/sampling.h).

@@ -18,6 +18,7 @@ namespace kilolux {
 namespace {
 
 constexpr double kSwayPeriodS = 2.0;
+constexpr double kDepthMiddle = 0.25; // of the scene's extent, in the middle of the scale of depth
 
 // Every local light swings along a level direction of its own, out of step with the others.
 std::vector<glm::dvec3> swayOffsets(std::size_t lights, double amplitudeM, double timeS) {
@@ -127,7 +128,8 @@ bool Renderer::Impl::submitFrame(gpu::Commands& commands, FrameContext& context)
     if (options.sliceMs > 0.0)
         commands.submitInSlices(options.sliceMs, canStop ? options.interrupt : nullptr);
     try {
-        recordFrame(context, *passes, plan, world, meanFrames, float(0.25 * sceneExtentM));
+        recordFrame(context, *passes, plan, world, meanFrames,
+                    viewConstants(plan.view, legend, kDepthMiddle * sceneExtentM));
         commands.submitAndWait();
         return true;
     } catch (const gpu::Interrupted&) {
@@ -151,7 +153,9 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     describeFrame(index, outputPx, cameraAt(timeS, scene));
     frameBuffer.upload(std::as_bytes(std::span(&constants, 1)));
     plan.countLights = plan.view == shared::VIEW_LIGHTS_IN_RANGE || plan.view == shared::VIEW_LIGHTS_SEEN ||
-                       plan.view == shared::VIEW_SEEN_SHARE || index + 1 == std::uint32_t(options.frames);
+                       plan.view == shared::VIEW_SEEN_SHARE ||
+                       (outputView && outputView->pass == "count_lights") ||
+                       index + 1 == std::uint32_t(options.frames);
     plan.writeLists = !(frozen(index) && options.settings.freezeLists);
 
     used = gpuScene->features();
@@ -179,6 +183,9 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
         context.replacedDiffuse = replaced[0] ? &replaced[0] : nullptr;
         context.replacedSpecular = replaced[1] ? &replaced[1] : nullptr;
     }
+    legend =
+        viewLegend(plan.view, double(constants.exposure), kDepthMiddle * sceneExtentM, options.viewRange);
+    if (outputView) commands.captureAfter(outputView->pass);
     interrupted = !submitFrame(commands, context);
     if (interrupted) {
         // Everything that lasts is written into one of two images in turn: turned back, it is as it was.
@@ -187,13 +194,17 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
         historyExposure = exposureBefore;
         constants = constantsBefore;
         meanReset = true; // it has one image only
+        frameStands = false;
         return;
     }
+    takePassOutput(commands);
 
     const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
     for (std::size_t i = 0; i < counted.size(); ++i)
         counted[i] += counts[i];
     if (constants.grid.enabled) gridUse = grid->finishFrame();
+    frameStands = !constants.grid.enabled || gridUse.indices <= gridUse.capacity;
+    chosenFrom = lists ? &lists->previous() : nullptr;
     if (lists && plan.writeLists) lists->turn();
     historyBegins = !historyReset.empty();
     if (historyBegins) lastHistoryReset = historyReset;
@@ -232,6 +243,7 @@ static glm::vec3 shownColor(const FloatImage& image, glm::ivec2 pixel, glm::dvec
 }
 
 Picture Renderer::Impl::readPicture() const {
+    if (passOutput) return passOutput->picture;
     Picture picture{options.width, options.height, {}, {}};
     const bool view = plan.view != shared::VIEW_FINAL;
     const FloatImage values = toFloatImage(view ? targets->viewValues : shownPicture(*targets, plan));

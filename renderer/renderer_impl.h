@@ -6,6 +6,10 @@
 
 #include "renderer/camera.h"
 #include "renderer/frame.h"
+#include "renderer/pass_output.h"
+#include "renderer/pass_statistics.h"
+
+#include <deque>
 
 namespace kilolux {
 
@@ -21,13 +25,24 @@ struct Renderer::Impl {
     double wantedExposureEv100() const; // of the settings, else of the scene, else metered
     void poisonTargets();
 
+    // --- renderer_views.cpp
+    std::optional<Error> planView(); // of options.view; settings and method decide its filters
+    TargetNeeds targetNeeds() const;
+    std::optional<Error> setView(std::string_view view, const std::optional<ViewRange>& range);
+    void takePassOutput(const gpu::Commands& commands);
+
     // --- renderer_frames.cpp
     void runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes);
     bool submitFrame(gpu::Commands& commands, FrameContext& context); // false: given up
     void compilePipelines();
     Picture readPicture() const;
 
+    // --- renderer_probe.cpp
+    Result<Probe> probe(glm::ivec2 pixel, ProbeDepth depth);
+    Probe readProbe(glm::ivec2 pixel, ProbeDepth depth);
+
     // --- renderer.cpp
+    std::optional<Error> renderFrame();
     Result<Picture> render(const RenderProgress& progress);
     void describe();
     void describeCounters();
@@ -59,6 +74,9 @@ struct Renderer::Impl {
     gpu::SpecValues features; // what the settings decide; the scene's own are in GpuScene
     gpu::Bindings world;
 
+    bool frameStands = false;                // all that the last frame read is as it was
+    const gpu::Buffer* chosenFrom = nullptr; // visible lists that the last frame's choice read; null without
+    gpu::Buffer probeSurface, probeLights, probeRays;
     std::uint32_t nextFrame = 0;              // index of the next frame of renderFrame()
     std::uint64_t framesRun = 0;              // ever
     std::uint32_t meanFrames = 0;             // that the running mean holds
@@ -71,7 +89,15 @@ struct Renderer::Impl {
     bool lightsDirty = false;                 // setLights() since the last frame
     std::uint64_t lightsEditedRun = 0;        // framesRun of the last edit of a light
 
+    std::optional<PassOutputName> outputView; // the view is an output of a pass
+    std::optional<PassOutput> passOutput;     // of the last frame
+    std::optional<Error> viewProblem;         // of the last frame
+    Legend legend;                            // of the last frame's view
+
     gpu::PassTimes times;
+    // Of the last frames, the newest last; render() keeps all of its own.
+    static constexpr std::size_t kTimedFrames = 64; // a window runs for hours
+    std::deque<FrameTimes> recentTimes;
     FrameStatistics statistics;
     std::vector<std::uint64_t> counted = std::vector<std::uint64_t>(shared::COUNTER_COUNT); // of all frames
 

@@ -204,29 +204,18 @@ GBufferProducer Renderer::Impl::wantedProducer() const {
 }
 
 std::optional<Error> Renderer::Impl::preparePlan() {
-    const std::optional<int> view = indexOfChoice(viewChoices(), options.view);
-    const std::optional<int> method = indexOfChoice(methodChoices(), options.method);
-    if (!view) return Error{fmt::format("no view '{}'", options.view)};
-    if (!method) return Error{fmt::format("no method '{}'", options.method)};
-    if (isStochasticView(*view) && Method(*method) != Method::Stochastic) {
-        return Error{fmt::format("view '{}' shows the stochastic method; method '{}' has no such thing",
-                                 viewChoices()[std::size_t(*view)].name,
-                                 methodChoices()[std::size_t(*method)].name)};
-    }
+    features.clear();
+    if (auto error = planView()) return error;
     plan.producer = wantedProducer();
-    plan.method = Method(*method);
-    plan.view = *view;
     plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
     plan.halfSampling = plan.stochastic() && options.settings.sampling != Sampling::Full;
     plan.compactRays = plan.stochastic() && options.settings.compactRays;
     plan.transparent = !gpuScene->transparentDraws().empty();
 
-    features.clear();
     features[shared::CHOICE_ESTIMATOR] =
         plan.method == Method::ReferenceTrue ? shared::ESTIMATOR_TRUE : shared::ESTIMATOR_SPLIT;
     features[shared::CHOICE_TONE_MAP] =
         options.settings.toneMap == ToneMap::None ? shared::TONE_MAP_NONE : shared::TONE_MAP_NEUTRAL;
-    features[shared::CHOICE_VIEW] = std::uint32_t(plan.view);
 
     constants.sampling = samplingConstants(options.settings);
     features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
@@ -236,7 +225,6 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     features[shared::CHOICE_LANES] = device.subgroupSize();
     plan.choices = constants.sampling.choices;
     constants.denoising = denoisingConstants(options.settings);
-    planFilters(plan, options.settings);
     features[shared::CHOICE_COUNT_SAMPLES] = plan.stochastic();
     features[shared::CHOICE_SPARSE_NEIGHBOURS] = device.isCpu();
     features[shared::CHOICE_PIXEL_ROWS] = device.isCpu();
@@ -257,20 +245,8 @@ std::optional<Error> Renderer::Impl::preparePlan() {
 
 void Renderer::Impl::makeTargets() {
     const std::uint32_t width = std::uint32_t(options.width), height = std::uint32_t(options.height);
-    TargetNeeds needs;
-    needs.raster = plan.producer == GBufferProducer::Raster;
-    needs.debugView = plan.view != shared::VIEW_FINAL;
-    needs.history = plan.stochastic();
-    needs.rays = plan.stochastic() ? constants.sampling.rays : 0;
-    needs.halfChoices = plan.halfSampling ? constants.sampling.choices : 0;
-    needs.denoised = plan.denoise;
-    needs.denoiseTrace = plan.denoise && isDenoiserView(plan.view);
-    needs.antiAliased = plan.antiAlias;
-    needs.rawColor = plan.keepsRaw();
-    needs.mean = plan.mean;
-    needs.counted = plan.mean && plan.stochastic();
-    needs.settled = plan.settle;
-    targets = std::make_unique<Targets>(device, width, height, needs);
+    frameStands = false;
+    targets = std::make_unique<Targets>(device, width, height, targetNeeds());
     if (plan.stochastic()) {
         lists = std::make_unique<VisibleLists>(device, width, height);
         if (plan.compactRays)

@@ -54,6 +54,7 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["lightGrid"] = {
         {"indices", s.gridIndices}, {"tests", s.gridTests}, {"coarseCells", s.gridCoarseCells}};
     json["historyReset"] = s.historyReset;
+    json["view"] = s.view;
     json["notes"] = s.notes;
     return json;
 }

@@ -1,6 +1,7 @@
 // What a rendered frame cost and what it was made of, and its JSON form (kilolux render --stats).
 #pragma once
 
+#include "renderer/legend.h"
 #include "renderer/settings.h"
 
 #include <cstdint>
@@ -54,14 +55,18 @@ struct FrameStatistics {
         firstDispatchMs;    // pass and its first dispatch, compiler included
     double startupMs = 0.0; // process start to the first picture
     double exposureEv100 = 0.0;
-    int rangesDerived = 0;             // lights without a range of their own
-    std::uint32_t gridIndices = 0;     // light indices in the lists of the last frame's light grid
-    std::uint32_t gridTests = 0;       // light-cell tests that made them
-    std::uint32_t gridCoarseCells = 0; // cells that took their coarse cell's list for want of room
-    double bvhBuildMs = 0.0;           // flattening, pairing, building
-    double bvhBytesPerTriangle = 0.0;  // nodes and triangles together
-    std::string historyReset;          // why history last began anew
-    std::vector<std::string> notes;    // what the renderer decided for the user, one line each
+    int rangesDerived = 0;                // lights without a range of their own
+    std::uint32_t gridIndices = 0;        // light indices in the lists of the last frame's light grid
+    std::uint32_t gridTests = 0;          // light-cell tests that made them
+    std::uint32_t gridCoarseCells = 0;    // cells that took their coarse cell's list for want of room
+    double bvhBuildMs = 0.0;              // flattening, pairing, building
+    double bvhBytesPerTriangle = 0.0;     // nodes and triangles together
+    std::string historyReset;             // why history last began anew
+    std::string view;                     // that the last frame shows
+    Legend legend;                        // of that view
+    std::string viewProblem;              // why the picture is shown instead of a pass's output
+    std::vector<std::string> viewOutputs; // of a view of a pass: the images that it writes, by GLSL name
+    std::vector<std::string> notes;       // what the renderer decided for the user, one line each
 };
 
 // The object that --stats writes: field names as above, `passes` by name, `gpuMemoryMiB` by cause and

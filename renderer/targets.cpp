@@ -59,8 +59,21 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
         samplesHalf = makeLayers("samplesHalf", VK_FORMAT_R32G32B32A32_UINT, needs.halfChoices, 2);
     sceneColor = make("sceneColor", VK_FORMAT_R32G32B32A32_SFLOAT, attachment);
     makeFiltered(make, needs);
-    if (needs.debugView) viewValues = make("viewValues", VK_FORMAT_R32G32B32A32_SFLOAT);
+    addForView(device, needs);
     display = make("display", VK_FORMAT_R8G8B8A8_UNORM);
+}
+
+void Targets::addForView(gpu::Device& device, const TargetNeeds& needs) {
+    const auto make = [&](const char* name, VkFormat format) {
+        return gpu::Image(device, {.name = name,
+                                   .format = format,
+                                   .width = sceneColor.desc().width,
+                                   .height = sceneColor.desc().height,
+                                   .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    };
+    if (needs.debugView && !viewValues) viewValues = make("viewValues", VK_FORMAT_R32G32B32A32_SFLOAT);
+    if (needs.denoiseTrace && !denoiseTrace)
+        denoiseTrace = make("denoiseTrace", VK_FORMAT_R16G16B16A16_SFLOAT);
 }
 
 void Targets::makeFiltered(const Make& make, const TargetNeeds& needs) {
@@ -75,7 +88,6 @@ void Targets::makeFiltered(const Make& make, const TargetNeeds& needs) {
         denoisedDiffuse = make("denoisedDiffuse", half, 0);
         denoisedSpecular = make("denoisedSpecular", half, 0);
     }
-    if (needs.denoiseTrace) denoiseTrace = make("denoiseTrace", half, 0);
     if (needs.antiAliased) {
         antiAliased = make("antiAliased", half, 0);
         previousAntiAliased = make("previousAntiAliased", half, 0);

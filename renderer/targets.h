@@ -69,6 +69,9 @@ struct Targets {
     gpu::Image viewValues;    // RGBA32F: raw values of a debug view; only with one
     gpu::Image display;       // RGBA8, sRGB-encoded
 
+    // Makes what a view needs beside the rest, where it is not there yet.
+    void addForView(gpu::Device& device, const TargetNeeds& needs);
+
     // What this frame wrote becomes what the next one finds as previous.
     void turnHistory();
     // The same of what the filters keep, which may be frozen by itself.

@@ -358,8 +358,7 @@ void Commands::capture(std::string_view name, const Image& image, std::uint32_t 
     pending.staging = Buffer(
         device_, {"capture", bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryUse::HostReadback, "readback"});
     copyImageToBuffer(image, mip, 0, pending.staging, 0);
-    std::erase_if(captures_, [&](const PendingCapture& other) { return other.result.name == name; });
-    captures_.push_back(std::move(pending));
+    keepCapture(std::move(pending));
 }
 
 void Commands::capture(std::string_view name, const Buffer& buffer) {
@@ -368,8 +367,17 @@ void Commands::capture(std::string_view name, const Buffer& buffer) {
     pending.staging = Buffer(device_, {"capture", buffer.bytes(), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                        MemoryUse::HostReadback, "readback"});
     copyBuffer(buffer, 0, pending.staging, 0, buffer.bytes());
-    std::erase_if(captures_, [&](const PendingCapture& other) { return other.result.name == name; });
-    captures_.push_back(std::move(pending));
+    keepCapture(std::move(pending));
+}
+
+void Commands::keepCapture(PendingCapture capture) {
+    for (PendingCapture& other : captures_) {
+        if (other.result.name != capture.result.name) continue;
+        std::swap(other, capture);
+        replacedCaptures_.push_back(std::move(capture));
+        return;
+    }
+    captures_.push_back(std::move(capture));
 }
 
 std::vector<Captured> Commands::captured() const {

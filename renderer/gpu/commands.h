@@ -146,7 +146,9 @@ class Commands {
         Buffer staging;
     };
     std::string capturePass_;
+    void keepCapture(PendingCapture capture);
     std::vector<PendingCapture> captures_;
+    std::vector<PendingCapture> replacedCaptures_; // by a later recording of the pass; still written to
 };
 
 } // namespace kilolux::gpu

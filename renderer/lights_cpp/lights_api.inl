@@ -45,6 +45,7 @@ uint cellOffset(float number, uint stride);
 LightSelection beginSelection(vec3 numbers, uint sampleCount);
 void selectionAdd(LightSelection& s, Candidate c);
 vec2 budgetedSums(float visibleSum, float hiddenSum, float directionalSum, SelectionBudget budget);
+float candidateProbability(vec3 sums, SelectionBudget budget, uint list, float weight);
 LightChoice selectionSample(LightSelection s, SelectionBudget budget, uint index);
 MaskedPoint areaMaskWarp(vec2 number, uint mask, float hiddenShare);
 vec4 areaMaskShares(uint mask, float hiddenShare);

@@ -35,10 +35,11 @@ DebugViewPass::DebugViewPass(gpu::PassResources& resources)
              {"samples", Access::Read, gpu::Presence::Optional},
              {"rayResults", Access::Read, gpu::Presence::Optional},
              {"visibleLists", Access::Read, gpu::Presence::Optional},
+             {"picture"},
              {"displayOut", Access::Write},
              {"viewValuesOut", Access::Write}}) {}
 
-void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
+void DebugViewPass::record(FrameContext& frame, shared::ViewConstants scale, const gpu::Image& picture) {
     const Targets& targets = frame.targets;
     gpu::Bindings sampling;
     if (frame.lists) {
@@ -47,13 +48,14 @@ void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
                     {"visibleLists", frame.lists->current()}};
     }
     gpu::Bindings filters;
-    if (targets.denoiseTrace) {
+    scale.denoised = bool(targets.denoisedDiffuse);
+    if (targets.denoisedDiffuse) {
         filters = {{"historyDiffuse", targets.historyDiffuse},
                    {"historyMoments", targets.historyMoments},
-                   {"denoiseTrace", targets.denoiseTrace},
                    {"denoisedDiffuse", targets.denoisedDiffuse},
                    {"denoisedSpecular", targets.denoisedSpecular}};
     }
+    if (targets.denoiseTrace) filters.push_back({"denoiseTrace", targets.denoiseTrace});
     pass_.record(frame.commands, frame.features,
                  joined({sampling,
                          filters,
@@ -68,9 +70,10 @@ void DebugViewPass::record(FrameContext& frame, float depthScaleM) {
                           {"lightCounts", targets.lightCounts},
                           {"pyramid", targets.pyramid},
                           frame.scene.environmentBrdf(),
+                          {"picture", picture},
                           {"displayOut", targets.display},
                           {"viewValuesOut", targets.viewValues}}}),
-                 depthScaleM, frame.outputTiles());
+                 scale, frame.outputTiles());
 }
 
 } // namespace kilolux

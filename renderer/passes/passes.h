@@ -9,6 +9,8 @@
 #include "renderer/targets.h"
 #include "renderer/visible_lists.h"
 #include "shaders/shared/frame.h"
+#include "shaders/shared/probe.h"
+#include "shaders/shared/views.h"
 
 namespace kilolux {
 
@@ -236,7 +238,31 @@ class ToneMapPass {
 class DebugViewPass {
   public:
     explicit DebugViewPass(gpu::PassResources& resources);
-    void record(FrameContext& frame, float depthScaleM);
+    // `picture`: what tone_map shows.
+    void record(FrameContext& frame, shared::ViewConstants scale, const gpu::Image& picture);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+// Looks into one pixel of a finished frame; see shared/probe.h.
+class ProbePass {
+  public:
+    ProbePass(gpu::PassResources& resources, TraceBackEnd tracer, std::uint32_t choices);
+
+    struct Images {
+        const gpu::Image& picture;    // what tone_map shows
+        const gpu::Image& viewValues; // of the view, or the picture
+        const gpu::Image& diffuse;    // light without albedo
+    };
+    struct Results {
+        const gpu::Buffer& surface; // shared::ProbeSurface
+        const gpu::Buffer& lights;  // shared::ProbeLight, one a slot
+        const gpu::Buffer& rays;    // vec4, PROBE_RAYS a slot
+    };
+    // `lists`: those that the frame's choice read; null without.
+    void record(FrameContext& frame, const gpu::Bindings& world, const gpu::Buffer* lists,
+                const shared::ProbeRequest& request, const Images& images, const Results& results);
 
   private:
     gpu::ComputePass pass_;
@@ -251,6 +277,10 @@ std::vector<gpu::PassUse> traceUses(TraceBackEnd tracer);
 std::vector<gpu::PassUse> lightUses();
 std::vector<gpu::PassUse> joined(std::initializer_list<std::vector<gpu::PassUse>> lists);
 gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists);
+std::vector<gpu::PassUse> receiverUses();
+gpu::Bindings receiverBindings(const FrameContext& frame);
+// A definition for shaders that choose that many samples of a pixel.
+std::string sampleRoom(std::uint32_t choices);
 std::vector<std::string> tracerDefines(TraceBackEnd tracer);
 
 // Draws the items that the camera may see; sets culling and winding where they change.

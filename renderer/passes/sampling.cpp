@@ -3,25 +3,11 @@
 
 #include "shaders/shared/features.h"
 
-#include <fmt/format.h>
-
 namespace kilolux {
 
 using gpu::Access;
 
 namespace {
-
-std::vector<gpu::PassUse> receiverUses() {
-    return joined({{{"Frame"}, {"gDepth"}, {"gNormals"}, {"gMaterial"}}, lightUses()});
-}
-
-gpu::Bindings receiverBindings(const FrameContext& frame) {
-    return joined({{{"Frame", frame.frameBuffer},
-                    {"gDepth", frame.targets.gDepth},
-                    {"gNormals", frame.targets.gNormals},
-                    {"gMaterial", frame.targets.gMaterial}},
-                   frame.scene.lightBindings()});
-}
 
 // Of lib/ray_list.glsl; dummies stand in where there is no list.
 std::vector<gpu::PassUse> rayListUses() {
@@ -32,12 +18,6 @@ std::vector<gpu::PassUse> rayListUses() {
 gpu::Bindings rayListBindings(const FrameContext& frame) {
     if (!frame.rays) return {};
     return {{"RayListHeads", frame.rays->heads}, {"rayList", frame.rays->entries}};
-}
-
-// The reservoirs of a pixel live in registers. GLSL cannot pass structs with arrays that a specialization
-// constant sizes, so their number is a definition: three variants of the shader.
-std::string sampleRoom(std::uint32_t choices) {
-    return fmt::format("KX_MAX_SAMPLES {}", choices <= 1 ? 1 : choices <= 4 ? 4 : 64);
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 // What several passes declare or do alike.
 #include "renderer/passes/passes.h"
 
+#include <fmt/format.h>
+
 namespace kilolux {
 
 using gpu::Access;
@@ -52,6 +54,24 @@ gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists) {
     for (const auto& list : lists)
         result.insert(result.end(), list.begin(), list.end());
     return result;
+}
+
+std::vector<gpu::PassUse> receiverUses() {
+    return joined({{{"Frame"}, {"gDepth"}, {"gNormals"}, {"gMaterial"}}, lightUses()});
+}
+
+gpu::Bindings receiverBindings(const FrameContext& frame) {
+    return joined({{{"Frame", frame.frameBuffer},
+                    {"gDepth", frame.targets.gDepth},
+                    {"gNormals", frame.targets.gNormals},
+                    {"gMaterial", frame.targets.gMaterial}},
+                   frame.scene.lightBindings()});
+}
+
+// The reservoirs of a pixel live in registers. GLSL cannot pass structs with arrays that a specialization
+// constant sizes, so their number is a definition: three variants of the shader.
+std::string sampleRoom(std::uint32_t choices) {
+    return fmt::format("KX_MAX_SAMPLES {}", choices <= 1 ? 1 : choices <= 4 ? 4 : 64);
 }
 
 std::vector<std::string> tracerDefines(TraceBackEnd tracer) {

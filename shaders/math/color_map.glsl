@@ -14,6 +14,13 @@ KX_INLINE vec3 amountColor(float t) {
     return mix(color, vec3(0.993, 0.906, 0.144), saturate(x - 3.0));
 }
 
+// Blue over light grey to red with like lightness on both sides: less, equal, more. t in -1..1.
+KX_INLINE vec3 signedColor(float t) {
+    float x = clamp(t, -1.0, 1.0);
+    vec3 grey = vec3(0.865, 0.865, 0.865);
+    return mix(grey, x < 0.0 ? vec3(0.120, 0.250, 0.640) : vec3(0.706, 0.080, 0.120), abs(x));
+}
+
 // A colour per id, of like lightness, neighbours unlike.
 KX_INLINE vec3 idColor(uint id) {
     uint h = hashUint(id + 1u);

@@ -132,6 +132,17 @@ KX_INLINE vec2 budgetedSums(float visibleSum, float hiddenSum, float directional
     return vec2(hidden, directional);
 }
 
+// The probability that selectionSample() takes a candidate of this list and weight (its stride contained). `sums` are
+// those of the selection: visible, hidden, directional.
+KX_INLINE float candidateProbability(vec3 sums, SelectionBudget budget, uint list, float weight) {
+    if (!(weight >= KX_LEAST_WEIGHT)) return 0.0;
+    vec2 given = budgetedSums(sums.x, sums.y, sums.z, budget);
+    float total = max(sums.x + given.x + given.y, KX_LEAST_WEIGHT);
+    if (list == LIST_HIDDEN) return given.x / total * (weight / sums.y);
+    if (list == LIST_DIRECTIONAL) return given.y / total * (weight / sums.z);
+    return weight / total;
+}
+
 // The index-th sample of the pixel, once all candidates have been added. The hidden and the directional
 // winner are offered to the visible reservoir as one item each, with what is left of the visible list's
 // number, which so decides alone wherever that list is all there is.

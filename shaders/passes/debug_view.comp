@@ -7,15 +7,17 @@
 #include "lib/gbuffer.glsl"
 #include "lib/sample.glsl"
 #include "lib/visible_list.glsl"
-#include "math/color_map.glsl"
+#include "math/color.glsl"
+#include "math/false_color.glsl"
 #include "math/tone_map.glsl"
 
 layout(constant_id = CHOICE_DEMODULATED) const bool kDemodulated = false;
 layout(constant_id = CHOICE_VIEW) const int kView = VIEW_DIFFUSE;
+layout(constant_id = CHOICE_TONE_MAP) const int kToneMap = TONE_MAP_NEUTRAL;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(push_constant) uniform Push {
-    float depthScaleM; // linear depth shown in the middle of the scale
+layout(push_constant, scalar) uniform Push {
+    ViewConstants scale;
 };
 uniform usampler2D visibility;
 uniform sampler2D gDepth;
@@ -34,16 +36,64 @@ uniform sampler2D historyMoments;
 uniform sampler2D denoiseTrace;
 uniform sampler2D denoisedDiffuse;
 uniform sampler2D denoisedSpecular;
+uniform sampler2D picture; // that tone_map shows
 layout(rgba8) writeonly uniform image2D displayOut;
 layout(rgba32f) writeonly uniform image2D viewValuesOut;
 
-const float kCountScale = 64.0;
-const float kFramesScale = 32.0;
-const float kDeviationScale = 4.0;
+// A value's colour on the view's scale.
+vec3 scaleColor(float value) {
+    return amountColor(scalePosition(value, scale.low, scale.high));
+}
 
-// Half of the scale at depthScaleM, its end at infinity.
+// Half of the scale at scale.low, its end at infinity.
 float depthShare(float depthM) {
-    return depthM >= DEPTH_SKY ? 1.0 : depthM / (depthM + depthScaleM);
+    return depthM >= DEPTH_SKY ? 1.0 : depthM / (depthM + scale.low);
+}
+
+// What false colour measures at a rendered pixel. x: on the scale (stops or decades), y: the number itself.
+vec2 measured(ivec2 at) {
+    vec3 exposed = texelFetch(picture, at, 0).rgb;
+    if (kView == VIEW_STOPS) return vec2(stopsFromGrey(luminance(exposed)));
+    if (kView == VIEW_ILLUMINANCE) {
+        exposed = scale.denoised != 0u ? texelFetch(denoisedDiffuse, at, 0).rgb : texelFetch(litDiffuse, at, 0).rgb;
+        exposed *= KX_PI; // light without albedo is irradiance / pi
+    }
+    float value = luminance(exposed) / frame.exposure;
+    return vec2(decadesOf(value), value);
+}
+
+// The band that a pixel and its neighbours lie in on average: noise alone should draw no isolines.
+float bandAt(ivec2 at) {
+    ivec2 last = ivec2(frame.size) - 1;
+    float sum = 0.0;
+    for (int i = 0; i < 9; ++i)
+        sum += measured(clamp(at + 2 * ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), last)).x;
+    return kView == VIEW_STOPS ? stopBand(sum / 9.0) : decadeBand(sum / 9.0);
+}
+
+// False colour with isolines where the band changes to the right or below.
+vec3 showMeasured(uvec2 shownPixel, ivec2 at, out vec3 value) {
+    vec2 here = measured(at);
+    value = vec3(here.y);
+    ivec2 last = ivec2(frame.size) - 1;
+    ivec2 right = min(ivec2(renderedFromOutput(shownPixel + uvec2(1u, 0u))), last);
+    ivec2 below = min(ivec2(renderedFromOutput(shownPixel + uvec2(0u, 1u))), last);
+    float band = bandAt(at);
+    bool line = bandAt(right) != band || bandAt(below) != band;
+    vec3 color = kView == VIEW_STOPS ? signedColor(2.0 * scalePosition(here.x, scale.low, scale.high) - 1.0) : scaleColor(here.x);
+    return line ? color * 0.35 : color;
+}
+
+// Grey where the display can show it, red where a channel is clipped, blue where all is black.
+vec3 showClipping(ivec2 at, out vec3 value) {
+    vec3 color = max(texelFetch(picture, at, 0).rgb, vec3(0.0));
+    if (kToneMap == TONE_MAP_NEUTRAL) color = toneMapNeutral(color);
+    vec3 level = 255.0 * srgbFromLinear(clamp(color, 0.0, 1.0));
+    float most = max(level.x, max(level.y, level.z));
+    value = vec3(most >= KX_CLIPPED_LEVEL ? 1.0 : (most <= KX_CRUSHED_LEVEL ? -1.0 : 0.0));
+    if (value.x > 0.0) return vec3(0.92, 0.16, 0.12);
+    if (value.x < 0.0) return vec3(0.16, 0.30, 0.75);
+    return vec3(luminance(level) / 255.0 * 0.8 + 0.1);
 }
 
 // Views of the stochastic method's samples and lists; `value` is the raw value.
@@ -68,11 +118,11 @@ vec3 showSampling(uvec2 pixel, out vec3 value) {
     }
     if (kView == VIEW_HIDDEN_SHARE) {
         value = vec3(chosen > 0.0 ? hidden / chosen : 0.0);
-        return amountColor(value.x);
+        return scaleColor(value.x);
     }
     if (kView == VIEW_SAMPLE_WEIGHT) {
         value = vec3(first.weight);
-        return amountColor(first.weight / 4.0);
+        return scaleColor(first.weight);
     }
     if (kView == VIEW_REPROJECTION) {
         value = vec3(uvec3(first.flags & SAMPLE_MISSED, first.flags & SAMPLE_RECONSTRUCTED,
@@ -87,20 +137,20 @@ vec3 showSampling(uvec2 pixel, out vec3 value) {
     for (uint i = 0u; i < min(head.x, LIST_CAPACITY); ++i)
         ages += float(unpackEntry(texelFetch(visibleLists, int(texel + 1u + i)).x).age);
     value = kView == VIEW_LIST_LENGTH ? vec3(head, 0.0) : vec3(head.x > 0u ? ages / float(head.x) : 0.0);
-    if (kView == VIEW_LIST_LENGTH) return head.y > 0u ? vec3(1.0) : amountColor(float(head.x) / float(LIST_CAPACITY));
-    return amountColor(value.x / 15.0);
+    if (kView == VIEW_LIST_LENGTH) return head.y > 0u ? vec3(1.0) : scaleColor(float(head.x));
+    return scaleColor(value.x);
 }
 
 // The views of the denoiser.
 vec3 showFilters(ivec2 at, Surface s, out vec3 value) {
     if (kView == VIEW_HISTORY_LENGTH) {
         value = vec3(texelFetch(historyDiffuse, at, 0).a);
-        return amountColor(value.x / kFramesScale);
+        return scaleColor(value.x);
     }
     if (kView == VIEW_DEVIATION) {
         vec4 moments = texelFetch(historyMoments, at, 0);
         value = vec3(moments.y / max(moments.x, 1.0e-4));
-        return amountColor(value.x / kDeviationScale);
+        return scaleColor(value.x);
     }
     if (kView == VIEW_REJECTED_HISTORY) {
         value = 1.0 - texelFetch(denoiseTrace, at, 0).zxy;
@@ -141,7 +191,7 @@ void main() {
         shown = srgbFromLinear(value);
     } else if (kView == VIEW_ROUGHNESS || kView == VIEW_METALLIC) {
         value = vec3(kView == VIEW_ROUGHNESS ? s.roughness : s.metallic);
-        shown = amountColor(value.x);
+        shown = scaleColor(value.x);
     } else if (kView == VIEW_DEPTH) {
         value = vec3(depthM);
         shown = amountColor(1.0 - depthShare(depthM));
@@ -154,13 +204,15 @@ void main() {
         shown = idColor(id);
     } else if (kView == VIEW_LIGHTS_IN_RANGE || kView == VIEW_LIGHTS_SEEN) {
         value = vec3(kView == VIEW_LIGHTS_IN_RANGE ? inRange : seen);
-        shown = amountColor(value.x / kCountScale);
+        shown = scaleColor(value.x);
     } else if (kView == VIEW_SEEN_SHARE) {
         value = vec3(inRange > 0.0 ? seen / inRange : 0.0);
-        shown = amountColor(value.x);
+        shown = scaleColor(value.x);
     }
     if (kView >= VIEW_CHOSEN_LIGHT && kView <= VIEW_REPROJECTION) shown = showSampling(pixel, value);
     if (kView >= VIEW_HISTORY_LENGTH && kView <= VIEW_DENOISED_SPECULAR) shown = showFilters(at, s, value);
+    if (kView >= VIEW_LUMINANCE && kView <= VIEW_STOPS) shown = showMeasured(shownPixel, at, value);
+    if (kView == VIEW_CLIPPING) shown = showClipping(at, value);
     if (depthM >= DEPTH_SKY) shown = vec3(0.0);
     imageStore(displayOut, ivec2(shownPixel), vec4(shown, 1.0));
     imageStore(viewValuesOut, ivec2(shownPixel), vec4(value, 1.0));

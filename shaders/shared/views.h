@@ -33,7 +33,19 @@ const int VIEW_DEVIATION = 24;
 const int VIEW_REJECTED_HISTORY = 25;
 const int VIEW_DENOISED_DIFFUSE = 26;
 const int VIEW_DENOISED_SPECULAR = 27;
-const int VIEW_COUNT = 28;
+const int VIEW_LUMINANCE = 28;
+const int VIEW_ILLUMINANCE = 29;
+const int VIEW_STOPS = 30;
+const int VIEW_CLIPPING = 31;
+const int VIEW_COUNT = 32;
+
+// What a view is drawn by beside the frame; from its legend (renderer/legend.h).
+struct ViewConstants {
+    float low; // value at the low end of the scale; of logarithmic ones the log10, of depth the metres in its
+               // middle
+    float high;
+    uint denoised; // the denoiser's light is bound
+};
 
 KX_SHARED_END
 #endif

@@ -8,6 +8,8 @@
 #include "shaders/shared/frame.h"
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/gpu_light.h"
+#include "shaders/shared/probe.h"
+#include "shaders/shared/views.h"
 
 #include <bit>
 
@@ -107,6 +109,10 @@ STRUCT_TEST(FrameConstants)
 STRUCT_TEST(GridConstants)
 STRUCT_TEST(SamplingConstants)
 STRUCT_TEST(DenoisingConstants)
+STRUCT_TEST(ViewConstants)
+STRUCT_TEST(ProbeRequest)
+STRUCT_TEST(ProbeSurface)
+STRUCT_TEST(ProbeLight)
 STRUCT_TEST(RayListHead)
 STRUCT_TEST(InstanceRows)
 STRUCT_TEST(GridCell)

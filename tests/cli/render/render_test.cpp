@@ -147,5 +147,37 @@ TEST_F(RenderCommand, SceneWithoutLightsOrCamerasRenders) {
               std::string::npos);
 }
 
+struct ProbeCommand : ProgramTest {};
+
+TEST_F(ProbeCommand, TellsWhyAsTableAndJson) {
+    const std::vector<std::string> arguments{"probe", scene("cornell"), "--size", "96x54", "--frames",
+                                             "3",     "--pixel",        "48,45"};
+    const ProgramRun table = run(arguments);
+    EXPECT_EQ(table.exitCode, 0) << table.err;
+    for (const char* word :
+         {"picture ", " nit", "surface ", " lux on it", "candidates", "prob.", "visible, listed"})
+        EXPECT_NE(table.out.find(word), std::string::npos) << word << " in\n" << table.out;
+    std::vector<std::string> asJson = arguments;
+    asJson.emplace_back("--json");
+    const ProgramRun json = run(asJson);
+    ASSERT_EQ(json.exitCode, 0) << json.err;
+    const nlohmann::json probe = nlohmann::json::parse(json.out);
+    EXPECT_EQ(probe["pixel"], nlohmann::json({48, 45}));
+    double sum = 0.0;
+    for (const auto& light : probe["lights"])
+        sum += light["probability"].get<double>();
+    EXPECT_NEAR(sum, 1.0, 1e-4);
+    EXPECT_GT(probe["lux"], 0.0);
+}
+
+TEST_F(ProbeCommand, RefusesWhatIsNoPixel) {
+    for (const char* pixel : {"", "48", "48,", "a,b", "48,45,1", "96,0", "0,-1"}) {
+        const ProgramRun result = run({"probe", scene("cornell"), "--size", "96x54", "--pixel", pixel});
+        EXPECT_EQ(result.exitCode, 2) << pixel;
+        EXPECT_NE(result.err.find("--pixel"), std::string::npos) << result.err;
+    }
+    EXPECT_EQ(run({"probe"}).exitCode, 2);
+}
+
 } // namespace
 } // namespace kilolux

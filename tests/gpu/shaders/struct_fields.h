@@ -23,6 +23,15 @@
 #define FIELDS_DenoisingConstants(F) \
     F(diffuseFrames) F(specularFrames) F(leastFrames) F(clipWidth) F(spatialRadiusPx) F(spatialThreshold) \
     F(antiAliasFrames) F(antiAliasClip) F(settleError)
+#define FIELDS_ViewConstants(F) F(low) F(high) F(denoised)
+#define FIELDS_ProbeRequest(F) F(renderedPx) F(shownPx) F(stochastic) F(lights)
+#define FIELDS_ProbeSurface(F) \
+    F(pixel) F(exists) F(hasTurn) F(positionWs) F(depthM) F(normalWs) F(geoNormalWs) F(viewDirWs) F(baseColor) \
+    F(roughness) F(metallic) F(instance) F(primitive) F(pictureNit) F(viewValue) F(irradianceLux) F(candidates) \
+    F(cellLights) F(stride) F(listLights) F(listTile) F(missed) F(sums) F(budgeted)
+#define FIELDS_ProbeLight(F) \
+    F(flags) F(list) F(entry) F(weight) F(offered) F(probability) F(chosen) F(chosenVisible) F(rays) F(raysVisible) \
+    F(irradianceLux) F(reflectedNit)
 #define FIELDS_InstanceRows(F) F(row0) F(row1) F(row2)
 #define FIELDS_GridConstants(F) \
     F(fineSize) F(coarseSize) F(firstDepthM) F(slicesPerOctave) F(lastDepthM) F(capacity) F(enabled) \

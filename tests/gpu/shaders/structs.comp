@@ -4,6 +4,8 @@
 #include "shared/frame.h"
 #include "shared/geometry.h"
 #include "shared/gpu_light.h"
+#include "shared/probe.h"
+#include "shared/views.h"
 #include "tests/gpu/shaders/struct_fields.h"
 
 layout(local_size_x = 1) in;

@@ -43,6 +43,7 @@ TEST(Statistics, JsonHoldsEveryField) {
                                      .bvhBuildMs = 24.5,
                                      .bvhBytesPerTriangle = 41.0,
                                      .historyReset = "cut",
+                                     .view = "depth",
                                      .notes = {"n"}};
     const Settings settings{.jitter = false};
     const nlohmann::ordered_json json =
@@ -60,6 +61,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["settingsHash"].get<std::string>().size(), 16u);
     EXPECT_EQ(json["lights"], 14);
     EXPECT_EQ(json["historyReset"], "cut");
+    EXPECT_EQ(json["view"], "depth");
     EXPECT_EQ(json["sampling"]["candidatesMean"], 3.5);
     EXPECT_EQ(json["sampling"]["raysPerPixelMean"], 4.5);
     EXPECT_EQ(json["sampling"]["usefulRaysPerPixelMean"], 5.25);
@@ -89,7 +91,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["gpuMemoryMiB"]["total"], 38.0);
     EXPECT_EQ(json["firstDispatchMs"]["z_first"], 21.0);
     EXPECT_EQ(json["startupMs"], 22.0);
-    EXPECT_EQ(json.size(), 29u) << "a field was added or lost: say so in the README";
+    EXPECT_EQ(json.size(), 30u) << "a field was added or lost: say so in the README";
 }
 
 } // namespace

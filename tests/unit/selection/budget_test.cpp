@@ -86,12 +86,18 @@ std::vector<double> expectedProbabilities(const Case& c) {
 TEST(Budget, ReportedProbabilitiesAreTheDefinition) {
     for (const Case& c : cases()) {
         const std::vector<double> expected = expectedProbabilities(c);
+        const f64::LightSelection all = select(c.lights.candidates(), {0.5, 0.5, 0.5});
+        const f64::vec3 sums(all.visibleSum, all.hiddenSum, all.directionalSum);
         double sum = 0.0;
         for (const auto& [item, choice] : outcomes(c.lights.candidates(), c.budget)) {
             ASSERT_LT(item, expected.size()) << c.name;
             EXPECT_NEAR(choice.probability, expected[item], 1e-9 * expected[item]) << c.name << ", " << item;
             EXPECT_EQ(choice.contribution, 1.0 / choice.probability) << c.name;
-            EXPECT_EQ(choice.list, c.lights.candidates()[item].list) << c.name;
+            const f64::Candidate candidate = c.lights.candidates()[item];
+            EXPECT_EQ(choice.list, candidate.list) << c.name;
+            EXPECT_NEAR(f64::candidateProbability(sums, c.budget, candidate.list, candidate.weight),
+                        choice.probability, 1e-12)
+                << c.name << ", as the probe tells it";
             sum += choice.probability;
         }
         EXPECT_NEAR(sum, 1.0, c.lights.hidden.empty() || c.lights.hidden[0] < 1e4 ? 1e-9 : 1e-3) << c.name;

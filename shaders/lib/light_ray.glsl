@@ -1,0 +1,36 @@
+// Rays from a receiver to points of a light: which point, and whether it is seen.
+#ifndef KILOLUX_LIB_LIGHT_RAY_GLSL
+#define KILOLUX_LIB_LIGHT_RAY_GLSL
+#include "receiver.glsl"
+#include "trace.glsl"
+#include "../math/hash.glsl"
+#include "../shared/sampling.h"
+
+// The point at `uv`; drawn again by `seed` until one is above the receiver's horizon and emits towards it. False when
+// none is found.
+bool usablePoint(Receiver receiver, LightHot light, vec2 uv, uint seed, out LightSample s) {
+    // A pixel that took its neighbour's choice may have all of the light below its horizon.
+    LightExtent extent = lightExtent(light, receiver.point.positionWs);
+    float highest = dot(receiver.point.normalWs, extent.toCenter) + extentAlong(extent, receiver.point.normalWs);
+    int draws = highest > 0.0 ? kMaxDraws : 0;
+    for (int draw = 0; draw < draws; ++draw) {
+        s = lightSample(light, receiver.point.positionWs, uv);
+        if (s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0) return true;
+        // From behind or inside all points are invalid; of a tube seen along its axis only some are.
+        if (!s.valid && lightType(light) != LIGHT_TUBE) return false;
+        uv = whiteNoise2(seed, uint(draw));
+    }
+    return false;
+}
+
+// RAY_VISIBLE or RAY_HIDDEN; `traced`: there was a ray to trace.
+uint tracePoint(Receiver receiver, LightSample s, float rayEndBiasM, out bool traced) {
+    traced = false;
+    if (dot(receiver.surface.geoNormalWs, s.dirWs) <= 0.0) return RAY_HIDDEN;
+    Ray ray = shadowRay(receiver, s, rayEndBiasM);
+    if (ray.tMaxM <= 0.0) return RAY_VISIBLE;
+    traced = true;
+    return occluded(ray) ? RAY_HIDDEN : RAY_VISIBLE;
+}
+
+#endif
