@@ -8,6 +8,7 @@
 #include "ui/viewport.h"
 #include "ui/viewport_camera.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -78,9 +79,10 @@ struct Desk {
 
     // --- window
     PanelVisibility panels;
-    double uiScale = 1.0; // of fonts and spacing; 1 on a screen of 1080 lines
-    double nowS = 0.0;    // since the start
-    double inputMs = 0.0; // steadyMs() of the newest event that this frame answers
+    double uiScale = 1.0;       // of fonts and spacing; 1 on a screen of 1080 lines
+    double nowS = 0.0;          // since the start
+    std::function<void()> wake; // draws the window again; from any thread
+    double inputMs = 0.0;       // steadyMs() of the newest event that this frame answers
     std::vector<Notice> notices;
     bool wantsQuit = false; // asked for; unsaved changes are asked about first
     bool quits = false;     // decided
@@ -91,6 +93,7 @@ struct Desk {
     // --- rendering
     RenderThread* renderThread = nullptr;    // never null in a running window
     std::shared_ptr<const ShownFrame> shown; // the last finished picture; null: none yet
+    std::shared_ptr<const ShownFrame> drawn; // what the window draws of it: comparisons may stand in for it
 
     // --- panels
     std::shared_ptr<FileTasks> files; // open, save, recover

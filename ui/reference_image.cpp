@@ -1,8 +1,230 @@
-// The place of a panel that its own change fills.
+// Stored picture, split view and live error in the window; see reference_image.h.
+#include "ui/reference_image.h"
+
 #include "ui/panels.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <bit>
+#include <fmt/format.h>
+#include <functional>
+#include <imgui.h>
 
 namespace kilolux {
 
-void drawReferenceOverlay(Desk&, ImDrawList&) {}
+namespace {
+
+constexpr std::uint32_t kStillFrames = 4; // of the mean, until the picture is worth measuring
+
+ReferenceState& state(Desk& desk) {
+    if (!desk.reference) desk.reference = std::make_shared<ReferenceState>();
+    return *desk.reference;
+}
+
+// Names all that a reference depends on.
+std::uint64_t viewKey(const Desk& desk, const std::string& method) {
+    const ShownFrame& shown = *desk.shown;
+    std::uint64_t key = std::hash<std::string>{}(method) ^ settingsHash(desk.settings);
+    const auto add = [&key](std::uint64_t word) { key = (key ^ word) * 1099511628211ull + (key >> 29); };
+    add(shown.documentVersion);
+    add(std::uint64_t(shown.width) << 32 | std::uint64_t(shown.height));
+    add(std::bit_cast<std::uint64_t>(desk.exposureEv100));
+    add(std::bit_cast<std::uint64_t>(shown.camera.yfovRad));
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 3; ++row)
+            add(std::bit_cast<std::uint64_t>(shown.camera.worldFromCamera[column][row]));
+    return key;
+}
+
+ReferenceView referenceView(const Desk& desk, const std::string& method, std::uint64_t key) {
+    ReferenceView view{*desk.scene(), {}, desk.shown->camera, desk.exposureEv100, key};
+    view.options.method = method;
+    view.options.settings = desk.settings;
+    view.options.settings.renderScale = 1.0;
+    view.options.width = desk.shown->width;
+    view.options.height = desk.shown->height;
+    return view;
+}
+
+// Keeps the reference on the view that is shown, and has the picture measured whenever its mean has doubled.
+void followLive(Desk& desk) {
+    ReferenceState& ref = state(desk);
+    if (!ref.measures) return;
+    const ShownFrame& shown = *desk.shown;
+    const bool still = shown.renderScale == desk.settings.renderScale && shown.meanFrames >= kStillFrames &&
+                       shown.documentVersion == desk.session->version() && desk.view.empty();
+    ref.live->setResting(!still);
+    const LiveReference::State live = ref.live->state();
+    if (live.report != ref.report) {
+        ref.report = live.report;
+        ref.comparing = false;
+    }
+    if (!still) return;
+    const std::uint64_t key = viewKey(desk, ref.method);
+    if (key != ref.wantedKey) {
+        ref.wantedKey = key;
+        ref.comparedFrames = 0;
+        ref.comparing = false;
+        ref.report.reset();
+        ref.live->begin(referenceView(desk, ref.method, key));
+    } else if (live.key == key && !ref.comparing && live.frames >= std::max(1u, 2 * ref.comparedFrames)) {
+        ref.comparing = true;
+        ref.comparedFrames = live.frames;
+        desk.renderThread->post([reference = std::weak_ptr(ref.live), key](Renderer& renderer) {
+            const auto picture = std::make_shared<Picture>(renderer.picture());
+            if (const auto there = reference.lock()) there->compare(picture, key);
+        });
+    }
+}
+
+void drawModes(Desk& desk) {
+    ReferenceState& ref = state(desk);
+    const auto mode = [&](const char* place, const char* text, const char* tip, Comparing which,
+                          bool possible) {
+        ImGui::SameLine();
+        const bool on = ref.mode == which;
+        const ButtonLook look =
+            !possible ? ButtonLook::Disabled : (on ? ButtonLook::Active : ButtonLook::Plain);
+        if (textButton(desk, place, text, look)) ref.mode = on ? Comparing::Off : which;
+        tooltip(tip);
+    };
+    if (textButton(desk, "reference.store", "Store")) {
+        ref.stored = desk.shown;
+        ref.storedExposure =
+            fmt::format("EV {:.2f}, {}", desk.exposureEv100,
+                        desk.shown->settled ? "settled" : fmt::format("{} frames", desk.shown->meanFrames));
+        notify(desk, Notice::Kind::Info, "The picture is stored as the reference");
+    }
+    tooltip("Keep this picture to compare with");
+    mode("reference.show", "Stored", "Show the stored picture (B)", Comparing::Stored, bool(ref.stored));
+    mode("reference.split", "Split", "Stored on the left, present on the right; drag the line",
+         Comparing::Split, bool(ref.stored));
+    if (ref.stored) ImGui::TextDisabled("Stored: %s", ref.storedExposure.c_str());
+}
+
+void drawLive(Desk& desk) {
+    ReferenceState& ref = state(desk);
+    if (ImGui::Checkbox("Measure the error", &ref.measures)) {
+        if (!ref.live) ref.live = std::make_shared<LiveReference>(desk.wake);
+        if (!ref.measures) ref.live->stop();
+        ref.report.reset();
+        ref.wantedKey = 0;
+        if (!ref.measures && (ref.mode == Comparing::Error || ref.mode == Comparing::Reference))
+            ref.mode = Comparing::Off;
+    }
+    mark(desk, "reference.live");
+    tooltip("Renders a reference of this view whenever the picture rests,\nwith what the processor has left, "
+            "and measures "
+            "against it");
+    if (!ref.measures) return;
+    for (const char* method : {"split", "true"}) {
+        ImGui::SameLine();
+        const ButtonLook look = ref.method == method ? ButtonLook::Active : ButtonLook::Plain;
+        if (textButton(desk, fmt::format("reference.{}", method).c_str(), method, look)) ref.method = method;
+        tooltip(ref.method == "split" ? "Analytic light times visibility: what the picture converges to"
+                                      : "The material at sampled points of every light");
+    }
+    const LiveReference::State live = ref.live->state();
+    if (!live.problem.empty()) ImGui::TextWrapped("%s", live.problem.c_str());
+    const char* doing =
+        live.preparing ? "preparing" : (desk.view.empty() ? "" : "waits for the picture's own view");
+    ImGui::TextDisabled("Reference: %u frames %s", live.frames, doing);
+    if (!ref.report) return;
+    ImGui::Text("FLIP %.4f (95 %%: %.3f)   relMSE %.5f", ref.report->flipMean, ref.report->flip95,
+                ref.report->relativeMse);
+    mark(desk, "reference.error");
+    const auto mode = [&](const char* place, const char* text, Comparing which) {
+        const bool shown = ref.mode == which;
+        if (textButton(desk, place, text, shown ? ButtonLook::Active : ButtonLook::Plain))
+            ref.mode = shown ? Comparing::Off : which;
+        ImGui::SameLine();
+    };
+    mode("reference.map", "Show the error", Comparing::Error);
+    mode("reference.truth", "Show the reference", Comparing::Reference);
+    ImGui::NewLine();
+}
+
+std::shared_ptr<const ShownFrame> referencePicture(const ErrorReport& report) {
+    auto result = std::make_shared<ShownFrame>();
+    result->width = report.width;
+    result->height = report.height;
+    for (std::size_t i = 0; i < report.reference.size(); ++i) {
+        result->rgba8.push_back(std::byte(report.reference[i]));
+        if (i % 3 == 2) result->rgba8.push_back(std::byte(255));
+    }
+    return result;
+}
+
+// Composes again only when something of it has changed.
+void compose(Desk& desk) {
+    ReferenceState& ref = state(desk);
+    const void* of[3] = {desk.shown.get(), ref.stored.get(), ref.report.get()};
+    const bool same = ref.composedMode == ref.mode && ref.composedAt == ref.splitAt &&
+                      std::equal(of, of + 3, ref.composedOf);
+    if (same) return;
+    std::copy(of, of + 3, ref.composedOf);
+    ref.composedMode = ref.mode;
+    ref.composedAt = ref.splitAt;
+    ref.composed.reset();
+    if (ref.mode == Comparing::Stored) ref.composed = ref.stored;
+    if (ref.mode == Comparing::Split && ref.stored)
+        ref.composed = splitPicture(*ref.stored, *desk.shown, ref.splitAt);
+    if (ref.mode == Comparing::Error && ref.report) ref.composed = errorPicture(*ref.report);
+    if (ref.mode == Comparing::Reference && ref.report) ref.composed = referencePicture(*ref.report);
+}
+
+void drawSplitLine(Desk& desk, ImDrawList& canvas) {
+    ReferenceState& ref = state(desk);
+    const ViewportRect& rect = desk.viewport.rect;
+    const ImGuiIO& io = ImGui::GetIO();
+    const double x = rect.x + ref.splitAt * rect.width;
+    const bool inside = rect.contains({io.MousePos.x, io.MousePos.y});
+    const bool near = inside && std::abs(double(io.MousePos.x) - x) < px(desk, 6) && !io.WantCaptureMouse;
+    if (near && !desk.pointerTaken && ImGui::IsMouseClicked(0)) {
+        ref.dragging = true;
+        desk.pointerTaken = true;
+    }
+    if (ref.dragging) {
+        ref.splitAt = std::clamp((double(io.MousePos.x) - rect.x) / rect.width, 0.0, 1.0);
+        if (!ImGui::IsMouseDown(0)) ref.dragging = desk.pointerTaken = false;
+    }
+    if (near || ref.dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    const float at = float(std::round(rect.x + ref.splitAt * rect.width)), top = float(rect.y),
+                bottom = float(rect.y + rect.height);
+    canvas.AddLine({at, top}, {at, bottom}, near || ref.dragging ? theme::kAccent : theme::kText,
+                   px(desk, 1));
+    if (desk.recordsPlaces) desk.places["reference.line"] = {double(at) - 2.0, rect.y, 4.0, rect.height};
+    canvas.AddText({at - ImGui::CalcTextSize("stored").x - px(desk, 8), top + px(desk, 8)}, theme::kText,
+                   "stored");
+    canvas.AddText({at + px(desk, 8), top + px(desk, 8)}, theme::kText, "now");
+}
+
+} // namespace
+
+void drawReferencePart(Desk& desk) {
+    drawModes(desk);
+    drawLive(desk);
+}
+
+void toggleStored(Desk& desk) {
+    ReferenceState& ref = state(desk);
+    if (ref.stored) ref.mode = ref.mode == Comparing::Stored ? Comparing::Off : Comparing::Stored;
+}
+
+void drawReferenceOverlay(Desk& desk, ImDrawList& canvas) {
+    ReferenceState& ref = state(desk);
+    followLive(desk);
+    compose(desk);
+    if (ref.mode == Comparing::Split && ref.composed) drawSplitLine(desk, canvas);
+    if (ref.mode == Comparing::Stored && ref.composed) {
+        const ViewportRect& rect = desk.viewport.rect;
+        canvas.AddText({float(rect.x) + px(desk, 8), float(rect.y) + px(desk, 8)}, theme::kAccent,
+                       "stored picture");
+    }
+}
+
+std::shared_ptr<const ShownFrame> comparedPicture(const Desk& desk) {
+    return desk.reference ? desk.reference->composed : nullptr;
+}
 
 } // namespace kilolux

@@ -46,6 +46,7 @@ struct Requests {
     std::optional<double> exposureEv100;
     std::optional<Settings> settings;
     std::optional<std::string> view;
+    std::optional<ViewRange> viewRange; // of that view
     std::optional<glm::ivec2> size;
     std::optional<RenderLimits> limits;
     std::vector<RenderThread::Job> jobs;
@@ -75,7 +76,8 @@ struct RenderThread::Impl {
     Requests pending;
     bool stopping = false;
     bool paused = false;
-    double inputMs = 0.0; // of the event that the next change answers
+    double inputMs = 0.0;  // of the event that the next change answers
+    bool jobsDone = false; // since the last takeFrame()
     std::shared_ptr<const ShownFrame> finished;
     std::optional<Error> error;
     std::string activity;
@@ -205,7 +207,7 @@ void RenderThread::Impl::apply(Requests requests) {
         freshFrames = 0;
     }
     if (requests.view) {
-        check(renderer->setView(*requests.view));
+        check(renderer->setView(*requests.view, requests.viewRange));
         options.view = *requests.view;
         freshFrames = 0;
     }
@@ -221,6 +223,12 @@ void RenderThread::Impl::apply(Requests requests) {
     }
     for (const Job& job : requests.jobs)
         job(*renderer);
+    if (requests.jobs.empty()) return;
+    {
+        const std::lock_guard lock(mutex);
+        jobsDone = true;
+    }
+    wake();
 }
 
 // Full resolution at rest; while something moves, what keeps a frame within its time.
@@ -362,8 +370,11 @@ void RenderThread::setSettings(const Settings& settings) {
     impl_->request([&](Requests& r) { r.settings = settings; });
 }
 
-void RenderThread::setView(std::string view) {
-    impl_->request([&](Requests& r) { r.view = std::move(view); });
+void RenderThread::setView(std::string view, const std::optional<ViewRange>& range) {
+    impl_->request([&](Requests& r) {
+        r.view = std::move(view);
+        r.viewRange = range;
+    });
 }
 
 void RenderThread::setSize(glm::ivec2 sizePx) {
@@ -393,12 +404,13 @@ void RenderThread::post(Job job) {
 
 std::shared_ptr<const ShownFrame> RenderThread::takeFrame() {
     const std::lock_guard lock(impl_->mutex);
+    impl_->jobsDone = false;
     return std::exchange(impl_->finished, nullptr);
 }
 
 bool RenderThread::hasNews() const {
     const std::lock_guard lock(impl_->mutex);
-    return impl_->finished || impl_->error;
+    return impl_->finished || impl_->error || impl_->jobsDone;
 }
 
 std::optional<Error> RenderThread::takeError() {

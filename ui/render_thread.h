@@ -58,7 +58,7 @@ class RenderThread {
     void setLights(const Scene& edited, std::uint64_t version);
     void setExposureEv100(double ev100);
     void setSettings(const Settings& settings);
-    void setView(std::string view);
+    void setView(std::string view, const std::optional<ViewRange>& range = {});
     void setSize(glm::ivec2 sizePx); // of the viewport
     void setLimits(const RenderLimits& limits);
     // When the event happened that the next calls answer, by steadyMs(); 0: they stand for themselves.

@@ -1,4 +1,5 @@
 // The line below: what is open, what the picture is made of, how far it has come, what is slow or wrong.
+#include "ui/cost_notes.h"
 #include "ui/file_tasks.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
@@ -45,12 +46,21 @@ void drawFileState(Desk& desk) {
     mark(desk, "status.reload");
 }
 
+// The worst thing to know about the picture; the rest stands in the cost panel.
+void drawProblem(Desk& desk) {
+    const std::vector<CostNote> notes = costNotes(desk.shown->statistics);
+    if (notes.empty() || !notes.front().wrong) return;
+    ImGui::SameLine();
+    ImGui::TextColored(ImColor(theme::kWarning), "%s %s", theme::kWarn, notes.front().text.c_str());
+}
+
 } // namespace
 
 void drawStatusLine(Desk& desk) {
     ImGui::PushFont(theme::smallFont());
     ImGui::SetCursorPosY(0.5f * (ImGui::GetWindowHeight() - ImGui::GetTextLineHeight()));
     drawFileState(desk);
+    if (desk.shown) drawProblem(desk);
     if (desk.shown) {
         const std::string text = pictureText(desk);
         const float textWidth = ImGui::CalcTextSize(text.c_str()).x;

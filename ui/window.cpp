@@ -6,12 +6,14 @@
 #include "ui/imgui_host.h"
 #include "ui/layout.h"
 #include "ui/panels.h"
+#include "ui/reference_image.h"
 #include "ui/state_file.h"
 #include "ui/theme.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
@@ -44,6 +46,7 @@ class Window {
     void wait();
     void drawFrame(const std::vector<InputEvent>& events, double dueMs);
     void takePicture();
+    void showPicture();
     void followSize(const ViewportRect& rect);
     void handleKeys();
     void remember();
@@ -64,11 +67,14 @@ class Window {
     glm::ivec2 windowPx_{0};
     glm::ivec2 askedPx_{0}, seenPx_{0}; // of the viewport
     double seenSinceMs_ = 0.0;
+    std::atomic<bool> news_ = false; // of a panel's own thread
     std::optional<Error> failed_;
 };
 
 Window::~Window() {
     renderThread_.reset();
+    desk_.reference.reset(); // its thread wakes the window
+    desk_.drawn.reset();
     desk_.shown.reset();
     host_.reset();
     if (hasContext_) ImGui::DestroyContext();
@@ -107,6 +113,10 @@ std::optional<Error> Window::open() {
     if (!host) return Error{host.error()};
     host_ = std::move(host.value());
     chooseScale();
+    desk_.wake = [this] {
+        news_ = true;
+        glfwPostEmptyEvent();
+    };
     renderThread_ = std::make_unique<RenderThread>([] { glfwPostEmptyEvent(); });
     renderThread_->setLimits(desk_.limits);
     desk_.renderThread = renderThread_.get();
@@ -165,7 +175,15 @@ void Window::takePicture() {
         desk_.meteredEv100 = desk_.shown->statistics.exposureEv100;
         desk_.exposureEv100 = *desk_.meteredEv100;
     }
-    host_->setPicture(desk_.shown.get());
+}
+
+// The newest picture, or what a comparison shows in its place.
+void Window::showPicture() {
+    std::shared_ptr<const ShownFrame> wanted = comparedPicture(desk_);
+    if (!wanted || !desk_.session) wanted = desk_.shown;
+    if (wanted == desk_.drawn) return;
+    desk_.drawn = std::move(wanted);
+    host_->setPicture(desk_.drawn.get());
 }
 
 // The viewport's size goes to the renderer once it stands still.
@@ -226,6 +244,7 @@ void Window::drawFrame(const std::vector<InputEvent>& events, double dueMs) {
     ImGui::NewFrame();
     handleKeys();
     drawLayout(desk_, layout);
+    showPicture();
     ImGui::Render();
     showCursor(window_);
     if (auto error = host_->present(windowPx_, layout.viewport)) failed_ = error;
@@ -277,7 +296,7 @@ std::optional<Error> Window::run() {
         desk_.nowS = (steadyMs() - startMs_) / 1000.0;
         const bool filesChanged = pollFileTasks(desk_);
         if (filesChanged || !input_.queue.empty() || std::exchange(input_.changed, false) ||
-            renderThread_->hasNews())
+            renderThread_->hasNews() || news_.exchange(false))
             framesDue_ = kFramesPerEvent;
         while (framesDue_ > 0 && !failed_) {
             const std::vector<InputEvent> events = input_.queue.takeFrame();
