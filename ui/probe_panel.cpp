@@ -177,20 +177,17 @@ void drawProbeOverlay(Desk& desk, ImDrawList& canvas) {
     const auto under = pixelUnder(mouse, desk.viewport.rect, {desk.shown->width, desk.shown->height});
     const bool free = !io.WantCaptureMouse && !desk.pointerTaken && !desk.flying;
     if (panel.picking && under && free) {
-        ImGui::SetMouseCursor(ImGuiMouseCursor_None);
         canvas.AddCircle({io.MousePos.x, io.MousePos.y}, px(desk, 7), theme::kAccent, 0, px(desk, 1.5));
         canvas.AddCircleFilled({io.MousePos.x, io.MousePos.y}, px(desk, 1.5), theme::kAccent);
         if (ImGui::IsMouseClicked(0) && !io.KeyAlt) {
             panel.pixel = under;
             panel.pressed = true;
-            desk.pointerTaken = true;
             ask(desk);
         }
     }
-    if (panel.pressed && !ImGui::IsMouseDown(0)) {
-        panel.pressed = false;
-        panel.picking = false;
-        desk.pointerTaken = false;
+    if (panel.pressed) {
+        desk.pointerTaken = true;
+        if (!ImGui::IsMouseDown(0)) panel.pressed = panel.picking = false;
     }
     const std::optional<Probe>& found = panel.probe.answer();
     if (!panel.pixel || !found || !found->surface) return;

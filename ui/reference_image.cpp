@@ -182,11 +182,11 @@ void drawSplitLine(Desk& desk, ImDrawList& canvas) {
     const bool near = inside && std::abs(double(io.MousePos.x) - x) < px(desk, 6) && !io.WantCaptureMouse;
     if (near && !desk.pointerTaken && ImGui::IsMouseClicked(0)) {
         ref.dragging = true;
-        desk.pointerTaken = true;
     }
     if (ref.dragging) {
+        desk.pointerTaken = true;
         ref.splitAt = std::clamp((double(io.MousePos.x) - rect.x) / rect.width, 0.0, 1.0);
-        if (!ImGui::IsMouseDown(0)) ref.dragging = desk.pointerTaken = false;
+        if (!ImGui::IsMouseDown(0)) ref.dragging = false;
     }
     if (near || ref.dragging) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
     const float at = float(std::round(rect.x + ref.splitAt * rect.width)), top = float(rect.y),
