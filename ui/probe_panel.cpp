@@ -89,8 +89,9 @@ void cell(const std::string& text) {
 }
 
 std::string whyOf(const ProbedLight& light) {
-    std::string text = fmt::format("{} {}\nweight {}, probability {:.4f}", light.type, light.id,
-                                   valueText(light.weight), light.probability);
+    std::string text =
+        fmt::format("{}{}{} {}\nweight {}, probability {:.4f}", light.name, light.name.empty() ? "" : ": ",
+                    light.type, light.id, valueText(light.weight), light.probability);
     text +=
         light.candidate ? fmt::format("\nweighed as a {} light", light.list) : "\nnot weighed in this frame";
     if (light.listed) text += fmt::format("\non the visible list, unseen for {} frames", light.unseenFrames);
@@ -109,7 +110,7 @@ void drawLights(Desk& desk, const Probe& probe) {
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Light", ImGuiTableColumnFlags_WidthStretch);
     for (const char* title : {"lux", "share", "seen", "prob."})
-        ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, px(desk, 48));
+        ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, px(desk, 40));
     ImGui::TableHeadersRow();
     ImGui::PushFont(theme::smallFont());
     for (const ProbedLight& light : probe.lights) {

@@ -185,7 +185,11 @@ void drawPointer(Desk& desk) {
         return fmt::format("{}  {}  {}", valueText(v.x), valueText(v.y), valueText(v.z));
     };
     valueRow("Pixel", fmt::format("{}, {}", probe.pixel.x, probe.pixel.y));
-    if (probe.view != "final") valueRow("View's value", three(probe.viewValue));
+    const FrameStatistics& statistics = desk.shown->statistics;
+    if (probe.view == statistics.view && probe.view != "final") {
+        const bool number = statistics.legend.map != ColorMap::None && statistics.legend.map != ColorMap::Ids;
+        valueRow("View's value", number ? valueText(probe.viewValue.x) : three(probe.viewValue));
+    }
     valueRow("Luminance", valueText(glm::dot(probe.pictureNit, glm::dvec3(0.2126, 0.7152, 0.0722))), "nit");
     valueRow("From middle grey", fmt::format("{:+.2f}", probe.stops), "stops");
     if (!probe.surface) return;

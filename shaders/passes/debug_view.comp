@@ -67,7 +67,7 @@ float bandAt(ivec2 at) {
     ivec2 last = ivec2(frame.size) - 1;
     float sum = 0.0;
     for (int i = 0; i < 9; ++i)
-        sum += measured(clamp(at + 2 * ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), last)).x;
+        sum += measured(clamp(at + ivec2(i % 3 - 1, i / 3 - 1), ivec2(0), last)).x;
     return kView == VIEW_STOPS ? stopBand(sum / 9.0) : decadeBand(sum / 9.0);
 }
 

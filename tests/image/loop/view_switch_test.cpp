@@ -142,8 +142,8 @@ TEST(FalseColor, IsolinesRunWhereTheBandChanges) {
             const auto band = [&](int u, int v) {
                 double sum = 0.0;
                 for (int i = 0; i < 9; ++i)
-                    sum += std::log10(
-                        lux(std::clamp(u + 2 * (i % 3 - 1), 0, 95), std::clamp(v + 2 * (i / 3 - 1), 0, 47)));
+                    sum +=
+                        std::log10(lux(std::clamp(u + i % 3 - 1, 0, 95), std::clamp(v + i / 3 - 1, 0, 47)));
                 sharp = sharp && std::abs(2.0 * sum / 9.0 - std::round(2.0 * sum / 9.0)) > 1e-3;
                 return std::floor(2.0 * sum / 9.0);
             };
