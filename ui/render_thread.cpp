@@ -190,25 +190,24 @@ void RenderThread::Impl::apply(Requests requests) {
         stillFrames = 0;
     }
     if (!renderer) return;
-    const auto check = [this](const std::optional<Error>& failed) {
+    const auto works = [this](const std::optional<Error>& failed) {
         if (failed) fail(*failed);
+        return !failed;
     };
     const glm::ivec2 size = pictureSize();
     if (size.x > 0 && (size.x != options.width || size.y != options.height)) {
         options.width = size.x;
         options.height = size.y;
-        check(renderer->resize(size.x, size.y));
+        works(renderer->resize(size.x, size.y));
         stillFrames = 0;
     }
     if (requests.settings) {
-        options.settings = *requests.settings;
         say("Building pipelines");
-        check(renderer->setSettings(options.settings));
+        if (works(renderer->setSettings(*requests.settings))) options.settings = *requests.settings;
         freshFrames = 0;
     }
     if (requests.view) {
-        check(renderer->setView(*requests.view, requests.viewRange));
-        options.view = *requests.view;
+        if (works(renderer->setView(*requests.view, requests.viewRange))) options.view = *requests.view;
         freshFrames = 0;
     }
     if (requests.exposureEv100) renderer->setExposureEv100(*requests.exposureEv100);
