@@ -236,6 +236,10 @@ std::uint32_t Renderer::lightSlot(std::uint64_t lightId) const {
     return impl_->gpuScene->slots().slotOf(lightId);
 }
 
+bool Renderer::isSoftware() const {
+    return impl_->device.isCpu();
+}
+
 FrameStatistics Renderer::statistics() const {
     return impl_->statistics;
 }

@@ -124,6 +124,8 @@ class Renderer {
     void replaceVisibleLists(const std::vector<glm::uvec2>& texels);
     std::uint32_t lightSlot(std::uint64_t lightId) const; // 0xffffffff for lights that are not there
 
+    bool isSoftware() const; // the device is the processor itself
+
     FrameStatistics statistics() const; // of the last render(), or of all frames since create()
 
     // Every target of the last frame; empty unless options.keepTargets.

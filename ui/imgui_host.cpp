@@ -372,6 +372,10 @@ Result<std::unique_ptr<ImGuiHost>> ImGuiHost::create(GLFWwindow* window) {
     }
 }
 
+bool ImGuiHost::isSoftware() const {
+    return impl_->device.isCpu();
+}
+
 std::optional<Error> ImGuiHost::uploadFonts() {
     try {
         Impl& impl = *impl_;

@@ -25,6 +25,8 @@ class ImGuiHost {
     ImGuiHost(const ImGuiHost&) = delete;
     ImGuiHost& operator=(const ImGuiHost&) = delete;
 
+    bool isSoftware() const; // the device is the processor itself
+
     // The fonts of ImGui's atlas have changed.
     std::optional<Error> uploadFonts();
 

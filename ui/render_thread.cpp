@@ -37,6 +37,10 @@ struct CameraRequest {
     Renderer::CameraChange change = Renderer::CameraChange::Move;
 };
 
+// Of a picture on a software device unless the limits say otherwise: beyond it memory and time get out of
+// hand.
+constexpr std::uint32_t kMostSoftwarePixels = 1u << 20;
+
 // What has been asked for since the last frame; the newest of each wins.
 struct Requests {
     std::optional<OpenRequest> open;
@@ -93,6 +97,7 @@ struct RenderThread::Impl {
     std::uint64_t version = 0;
     RenderLimits limits;
     glm::ivec2 viewportPx{0};
+    bool software = true; // until the device is known
     std::uint64_t frames = 0;
     std::uint32_t stillFrames = 0; // at full resolution since anything changed
     std::uint32_t freshFrames = 0; // since pipelines were built: the first ones compile
@@ -149,8 +154,10 @@ void RenderThread::Impl::say(const std::string& words) {
 // The viewport's size, or the largest of its shape that the limit allows.
 glm::ivec2 RenderThread::Impl::pictureSize() const {
     const double pixels = double(viewportPx.x) * double(viewportPx.y);
-    if (limits.mostPixels == 0 || pixels <= double(limits.mostPixels)) return viewportPx;
-    const double factor = std::sqrt(double(limits.mostPixels) / pixels);
+    const std::uint32_t byDevice = software ? kMostSoftwarePixels : UINT32_MAX;
+    const double most = limits.mostPixels > 0 ? limits.mostPixels : byDevice;
+    if (pixels <= most) return viewportPx;
+    const double factor = std::sqrt(most / pixels);
     return glm::max(glm::ivec2(glm::round(glm::dvec2(viewportPx) * factor)), glm::ivec2(1));
 }
 
@@ -169,6 +176,7 @@ void RenderThread::Impl::create(OpenRequest request) {
     say("");
     if (!created) return fail(Error{created.error()});
     renderer = std::move(created.value());
+    software = renderer->isSoftware(); // another size follows in apply()
     renderer->setCamera(camera, Renderer::CameraChange::Cut);
     freshFrames = 0;
     msPerPixel = 0.0;

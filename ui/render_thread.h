@@ -34,9 +34,10 @@ struct RenderLimits {
     double movingFrameMs = 90.0;    // the internal resolution falls until a frame takes no longer
     double leastScale = 0.3;        // but not below this share of width and height
     std::uint32_t meanFrames = 256; // that a settled picture holds
-    std::uint32_t mostPixels = 0;   // of a picture; a larger viewport gets it enlarged. 0: no limit
-    double sliceMs = 15.0;          // a frame at rest can be given up so often; 0: never
-    double restMs = 200.0;          // after the last change until full resolution
+    // Of a picture; a larger viewport gets it enlarged. 0: a million on software devices, no limit on others.
+    std::uint32_t mostPixels = 0;
+    double sliceMs = 15.0; // a frame at rest can be given up so often; 0: never
+    double restMs = 200.0; // after the last change until full resolution
     bool operator==(const RenderLimits&) const = default;
 };
 

@@ -23,7 +23,8 @@ namespace kilolux {
 
 namespace {
 
-constexpr double kFrameMs = 1000.0 / 60.0;
+// Between two UI frames. On a software device each takes time from the picture, so they come half as often.
+constexpr double kFrameMs = 1000.0 / 60.0, kSoftwareFrameMs = 1000.0 / 36.0;
 constexpr double kSlowFrameMs = 50.0;
 constexpr double kSizeSettlesMs = 120.0; // a size that holds so long is rendered at
 constexpr int kFramesPerEvent = 3;       // ImGui shows some answers a frame or two later
@@ -150,19 +151,19 @@ bool Window::isBusy() const {
 
 // Until an event, a new picture, or the next frame is due. Without any of them the thread sleeps.
 void Window::wait() {
-    const double sinceMs = steadyMs() - lastFrameMs_;
-    if (framesDue_ > 0) {
-        if (sinceMs < kFrameMs) glfwWaitEventsTimeout((kFrameMs - sinceMs) / 1000.0);
-        glfwPollEvents();
-    } else if (isBusy()) {
-        glfwWaitEventsTimeout(std::max(2.0 * kFrameMs - sinceMs, 0.1) / 1000.0);
-        framesDue_ = std::max(framesDue_, 1);
-    } else if (desk_.session || !desk_.notices.empty() || !desk_.files->abandoned.empty()) {
+    const double frameMs = host_->isSoftware() ? kSoftwareFrameMs : kFrameMs;
+    if (framesDue_ == 0 && isBusy()) {
+        framesDue_ = 1;
+    } else if (framesDue_ == 0 && (desk_.session || !desk_.notices.empty())) {
         glfwWaitEventsTimeout(0.5); // the file on disk, notices that fade
-        framesDue_ = std::max(framesDue_, desk_.notices.empty() ? 0 : 1);
-    } else {
+        framesDue_ = desk_.notices.empty() ? 0 : 1;
+    } else if (framesDue_ == 0) {
         glfwWaitEvents();
     }
+    // A pointer that moves a thousand times a second is no reason to draw as often.
+    for (double restMs = 0.0; (restMs = lastFrameMs_ + frameMs - steadyMs()) > 0.0;)
+        glfwWaitEventsTimeout(restMs / 1000.0);
+    glfwPollEvents();
 }
 
 void Window::takePicture() {
@@ -225,7 +226,8 @@ void Window::handleKeys() {
 
 void Window::drawFrame(const std::vector<InputEvent>& events, double dueMs) {
     const double beginMs = steadyMs();
-    if (!events.empty()) desk_.inputMs = events.back().atMs;
+    // What goes on by itself, as a held key flies, answers this moment.
+    desk_.inputMs = events.empty() ? beginMs : events.back().atMs;
     desk_.nowS = (beginMs - startMs_) / 1000.0;
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {float(windowPx_.x), float(windowPx_.y)};

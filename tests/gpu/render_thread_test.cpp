@@ -71,7 +71,9 @@ TEST(InterruptedFrames, GoOnWithTheirHistory) {
             EXPECT_EQ(stopped.value()->displayPixels(), steady.value()->displayPixels())
                 << "frame " << frame << ", given up after " << shareOfFrame << " of a frame";
         }
-        if (shareOfFrame == 0.0) EXPECT_EQ(givenUp, 2);
+        if (shareOfFrame == 0.0) {
+            EXPECT_EQ(givenUp, 2);
+        }
     }
 }
 
@@ -99,7 +101,7 @@ TEST(Resizing, PicturesOfAnotherSizeGoOn) {
     auto renderer = Renderer::create(scene, options);
     ASSERT_TRUE(renderer);
     ASSERT_FALSE(renderer.value()->renderFrame());
-    for (const glm::ivec2 size : {glm::ivec2(81, 13), glm::ivec2(1, 1), glm::ivec2(48, 32)}) {
+    for (const glm::ivec2& size : {glm::ivec2(81, 13), glm::ivec2(1, 1), glm::ivec2(48, 32)}) {
         ASSERT_FALSE(renderer.value()->resize(size.x, size.y));
         ASSERT_FALSE(renderer.value()->renderFrame());
         EXPECT_EQ(renderer.value()->displayPixels().size(), std::size_t(size.x) * std::size_t(size.y) * 4);

@@ -203,7 +203,7 @@ class Sizes(WindowCase):
             window.resize(width, height)
             state = window.wait(
                 lambda s: s["viewport"][0] + s["viewport"][2] <= width and s["places"] and
-                s["viewport"][1] + s["viewport"][3] <= height and s["viewport"][3] > 0.5 * height and
+                s["viewport"][1] + s["viewport"][3] <= height and s["viewport"][3] > 0.4 * height and
                 s["picture"]["width"] * s["viewport"][3] - s["picture"]["height"] * s["viewport"][2] <
                 0.02 * s["picture"]["width"] * s["viewport"][3], f"{width}x{height}")
             self.assertGreater(state["viewport"][2], 150)
