@@ -301,6 +301,7 @@ class Window:
         def act():
             count = 0
             for character in text:
+                time.sleep(0.003)  # GLFW takes a key's second press in one millisecond for an echo of the first
                 shift = character.isupper() or character in _SHIFTED
                 if shift:
                     self.screen.key("Shift_L", True)
