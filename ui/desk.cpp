@@ -2,6 +2,7 @@
 #include "ui/desk.h"
 
 #include "ui/file_tasks.h"
+#include "ui/light_actions.h"
 
 #include <algorithm>
 #include <utility>
@@ -21,7 +22,7 @@ void documentChanged(Desk& desk) {
     const Scene& scene = desk.session->scene();
     std::erase_if(desk.selection, [&](std::uint64_t id) { return findLight(scene, id) < 0; });
     desk.renderThread->setInputTime(desk.inputMs);
-    desk.renderThread->setLights(scene, desk.session->version());
+    desk.renderThread->setLights(withSolo(scene, desk.solo), desk.session->version());
     const double ev100 =
         scene.hasExposure ? scene.exposureEv100 : desk.meteredEv100.value_or(desk.exposureEv100);
     if (ev100 != desk.exposureEv100) {
@@ -113,6 +114,22 @@ void select(Desk& desk, const std::vector<std::uint64_t>& lights, Selecting how)
         }
     }
     desk.selection = std::move(result);
+}
+
+void forgetLights(Desk& desk) {
+    desk.selection.clear();
+    desk.solo.clear();
+    desk.locked.clear();
+    desk.lightList.reset();
+    desk.properties.reset();
+    desk.gizmo.reset();
+}
+
+void setSolo(Desk& desk, std::vector<std::uint64_t> lights) {
+    if (!desk.session) return;
+    desk.solo = std::move(lights);
+    desk.renderThread->setInputTime(desk.inputMs);
+    desk.renderThread->setLights(withSolo(desk.session->scene(), desk.solo), desk.session->version());
 }
 
 void frameSelection(Desk& desk) {

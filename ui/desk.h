@@ -58,6 +58,10 @@ struct Desk {
     std::unique_ptr<EditSession> session; // null: nothing is open
     std::vector<std::uint64_t> selection; // LightNode::id, sorted; all exist (pruned before panels are drawn)
 
+    // Views of the lights, not edits; both sorted.
+    std::vector<std::uint64_t> solo;   // only these are rendered; empty: all
+    std::vector<std::uint64_t> locked; // not to be picked or dragged in the viewport
+
     // --- view
     ViewportCamera camera; // where the next picture looks from
     Viewport viewport;     // where the shown picture stands, and its own camera
@@ -123,6 +127,8 @@ bool redo(Desk& desk);
 
 enum class Selecting { Replace, Add, Toggle };
 void select(Desk& desk, const std::vector<std::uint64_t>& lights, Selecting how = Selecting::Replace);
+void forgetLights(Desk& desk); // all that names lights of a scene that is closed
+void setSolo(Desk& desk, std::vector<std::uint64_t> lights); // empty: none
 // Moves the camera so that the selected lights fill the viewport; without any, the whole scene.
 void frameSelection(Desk& desk);
 

@@ -111,7 +111,7 @@ void closeScene(Desk& desk) {
     // Whoever comes here has saved or given the changes up.
     if (desk.session) desk.session->discardJournal();
     desk.session.reset();
-    desk.selection.clear();
+    forgetLights(desk);
     desk.meteredEv100.reset();
     desk.shown.reset();
     desk.renderThread->close();

@@ -228,6 +228,7 @@ void drawLayout(Desk& desk, const Layout& layout) {
     remembered.rightWidth = std::clamp(remembered.rightWidth, 200.0, 720.0);
     drawNotices(desk, layout.viewport);
     drawActivity(desk, layout.viewport);
+    drawKeysHelp(desk);
     drawFileDialogs(desk);
 }
 

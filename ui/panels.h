@@ -17,6 +17,9 @@ void drawStatusLine(Desk& desk);
 // --- left column
 void drawLightList(Desk& desk);
 
+// --- on top of everything
+void drawKeysHelp(Desk& desk); // every key (F1)
+
 // --- right column, one tab each
 void drawProperties(Desk& desk);
 void drawViewPanel(Desk& desk);       // view selector, legend, exposure, reference image

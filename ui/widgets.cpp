@@ -81,6 +81,14 @@ void textWithin(std::string_view text, float widthPx) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", whole.c_str());
 }
 
+void closePopupOnEscape() {
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) ImGui::CloseCurrentPopup();
+}
+
+bool isPopupOpen() {
+    return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 void mark(Desk& desk, const std::string& name) {
     if (!desk.recordsPlaces) return;
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();

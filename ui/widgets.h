@@ -23,6 +23,10 @@ void tooltip(const char* text);
 // Text in at most `widthPx`, with an ellipsis and the whole of it on hover.
 void textWithin(std::string_view text, float widthPx);
 
+// Within an open popup: Esc closes it. Without keyboard navigation ImGui leaves that to us.
+void closePopupOnEscape();
+bool isPopupOpen(); // any: keys are its
+
 // Names the last item for tests.
 void mark(Desk& desk, const std::string& name);
 

@@ -137,25 +137,6 @@ std::string placeOf(const Scene& scene, const Edit& edit) {
     return place;
 }
 
-std::optional<Error> applyOne(Scene& scene, const Edit& edit) {
-    if (!edit.field) {
-        if (!sameValue(wholeOf(scene, edit.target, edit.id), edit.before) || !putWhole(scene, edit))
-            return Error{placeOf(scene, edit) + ": expected the state that the edit was made for"};
-        return std::nullopt;
-    }
-    if (edit.field->target != edit.target || !targetExists(scene, edit.target, edit.id))
-        return Error{placeOf(scene, edit) + ": expected something that exists"};
-    if (std::optional<Error> error = checkValue(*edit.field, edit.after))
-        return Error{placeOf(scene, edit) + ": " + error->message};
-    // A node stays one that is given by a matrix, or by parts.
-    const bool isTransform = edit.field->kind == FieldKind::Transform;
-    const bool sameForm = !isTransform || edit.before.index() == edit.after.index();
-    if (!sameForm || !sameValue(edit.field->get(scene, edit.id), edit.before))
-        return Error{placeOf(scene, edit) + ": expected the value that the edit was made for"};
-    edit.field->set(scene, edit.id, edit.after);
-    return std::nullopt;
-}
-
 bool movesNodes(const Edit& edit) {
     return edit.target == EditTarget::Node || (edit.field && edit.field->kind == FieldKind::Transform);
 }
@@ -236,10 +217,29 @@ Edit inverted(Edit edit) {
     return edit;
 }
 
+std::optional<Error> applyInPlace(Scene& scene, const Edit& edit) {
+    if (!edit.field) {
+        if (!sameValue(wholeOf(scene, edit.target, edit.id), edit.before) || !putWhole(scene, edit))
+            return Error{placeOf(scene, edit) + ": expected the state that the edit was made for"};
+        return std::nullopt;
+    }
+    if (edit.field->target != edit.target || !targetExists(scene, edit.target, edit.id))
+        return Error{placeOf(scene, edit) + ": expected something that exists"};
+    if (std::optional<Error> error = checkValue(*edit.field, edit.after))
+        return Error{placeOf(scene, edit) + ": " + error->message};
+    // A node stays one that is given by a matrix, or by parts.
+    const bool isTransform = edit.field->kind == FieldKind::Transform;
+    const bool sameForm = !isTransform || edit.before.index() == edit.after.index();
+    if (!sameForm || !sameValue(edit.field->get(scene, edit.id), edit.before))
+        return Error{placeOf(scene, edit) + ": expected the value that the edit was made for"};
+    edit.field->set(scene, edit.id, edit.after);
+    return std::nullopt;
+}
+
 std::optional<Error> applyEdits(Scene& scene, std::span<const Edit> edits, Rules rules) {
     Scene changed = scene; // shares every array that is not written
     for (const Edit& edit : edits) {
-        if (std::optional<Error> error = applyOne(changed, edit)) return error;
+        if (std::optional<Error> error = applyInPlace(changed, edit)) return error;
     }
     for (const Edit& edit : edits) {
         if (rules == Rules::Skip) break;

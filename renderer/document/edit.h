@@ -77,7 +77,11 @@ Edit inverted(Edit edit);
 enum class Rules { Check, Skip };
 std::optional<Error> applyEdits(Scene& scene, std::span<const Edit> edits, Rules rules = Rules::Check);
 
-// The same backwards with each edit inverted.
+// One edit without the rules and without a copy: for building a change step by step on a document that is
+// thrown away. World transforms stay as they are.
+std::optional<Error> applyInPlace(Scene& scratch, const Edit& edit);
+
+// applyEdits() backwards with each edit inverted.
 std::optional<Error> revertEdits(Scene& scene, std::span<const Edit> edits);
 
 // --- looking things up ---

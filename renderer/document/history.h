@@ -29,6 +29,11 @@ class History {
     std::string undoName() const { return canUndo() ? steps_[done_ - 1].change.name : ""; }
     std::string redoName() const { return canRedo() ? steps_[done_].change.name : ""; }
 
+    // The steps from the oldest on, those that can be redone last; the first doneSteps() are in effect.
+    std::size_t steps() const { return steps_.size(); }
+    std::size_t doneSteps() const { return done_; }
+    const std::string& stepName(std::size_t step) const { return steps_[step].change.name; }
+
     // What undo() and redo() would apply, as a change of its own; without edits where there is nothing.
     Change nextUndo() const;
     Change nextRedo() const;

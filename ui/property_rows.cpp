@@ -1,0 +1,298 @@
+#include "ui/property_rows.h"
+
+#include "renderer/document/light_units.h"
+#include "renderer/document/light_words.h"
+#include "ui/light_actions.h"
+#include "ui/light_place.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <imgui.h>
+
+namespace kilolux {
+
+namespace {
+
+constexpr int kTypedDigits = 12;
+constexpr double kPxPerOctave = 100.0; // of dragging, where a pixel is a factor
+
+std::string lowered(std::string text) {
+    if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = char(text[0] + 32);
+    return text;
+}
+
+// 'Intensity of 3 lights'
+std::string stepName(const Desk& desk, const char* label) {
+    return fmt::format("{} of {}", label, countedLights(desk.selection.size()));
+}
+
+// What dragging by so many pixels adds or multiplies.
+ValueEntry entryOf(double pixels, double step) {
+    if (step == 0.0) return {ValueEntry::How::Multiply, std::exp2(pixels / kPxPerOctave), {}};
+    return {ValueEntry::How::Add, pixels * step, {}};
+}
+
+void tellRefused(Desk& desk, const std::string& label, const std::string& message) {
+    notify(desk, Notice::Kind::Error, fmt::format("{}: {}", label, message));
+}
+
+// What stands for a number that is left out: a range follows from the intensity then.
+const char* absentWord(std::string_view field) {
+    return field == "rangeM" ? "auto" : "none";
+}
+
+FieldText textOf(const CommonValue& value, Quantity quantity, LightUnit unit, const char* absent = "none") {
+    if (value.mixed) return {"mixed", "", "", FieldText::Tone::Dim};
+    const double* number = std::get_if<double>(&value.value);
+    if (!number) return {absent, "", "", FieldText::Tone::Dim};
+    return {formatQuantity(*number, quantity, 5), std::string(unitLabel(quantity, unit)),
+            formatQuantity(*number, quantity, kTypedDigits)};
+}
+
+// The unit of an intensity, to be chosen from those that suit all selected lights; a change converts the
+// numbers.
+void drawUnit(Desk& desk, float widthPx) {
+    const Scene& scene = desk.session->scene();
+    const CommonValue value = valueOf(desk, "unit");
+    const LightUnit unit = std::get<LightUnit>(value.value);
+    ImGui::SetNextItemWidth(widthPx);
+    if (ImGui::BeginCombo("##unit", value.mixed ? "mixed" : unitLabel(Quantity::Intensity, unit).data(),
+                          ImGuiComboFlags_NoArrowButton)) {
+        for (const LightUnitWord& word : kLightUnitWords) {
+            const bool suits =
+                std::all_of(desk.selection.begin(), desk.selection.end(), [&](std::uint64_t light) {
+                    const LightNode& node = scene.lights[std::size_t(findLight(scene, light))];
+                    return unitApplies(scene.lightDefs[std::size_t(node.def)], word.unit);
+                });
+            if (!suits) continue;
+            const bool same = !value.mixed && word.unit == unit;
+            if (ImGui::Selectable(unitLabel(Quantity::Intensity, word.unit).data(), same) && !same) {
+                applyEdits(desk, editsForValue(scene, desk.selection, "unit", word.unit, sharingOf(desk)),
+                           stepName(desk, "Unit"));
+            }
+            mark(desk, std::string("unit.") + word.name);
+        }
+        ImGui::EndCombo();
+    }
+    mark(desk, "unit");
+    tooltip("Another unit keeps the light and converts the number");
+}
+
+glm::dvec3 angleHint(const PropertiesState& state) {
+    return state.eulerRad;
+}
+
+// One of three numbers in a row.
+void drawCoordinate(Desk& desk, bool isAngle, int axis, float widthPx) {
+    PropertiesState& state = propertiesOf(desk);
+    const Scene& scene = desk.session->scene();
+    constexpr const char* kAxes[] = {"x", "y", "z"};
+    const Quantity quantity = isAngle ? Quantity::Angle : Quantity::Length;
+    const auto numberOf = [&](std::uint64_t light) {
+        return isAngle ? eulerFrom(rotationOf(scene, light), angleHint(state))[axis]
+                       : positionOf(scene, light)[axis];
+    };
+    CommonValue value{numberOf(state.selection.front()), false};
+    // Only a look at the first thousand: this is not remembered, and they hardly ever agree.
+    const std::size_t looks = std::min<std::size_t>(state.selection.size(), 1000);
+    for (std::size_t i = 1; i < looks && !value.mixed; ++i)
+        value.mixed = std::abs(numberOf(state.selection[i]) - std::get<double>(value.value)) > 1e-9;
+    FieldText text = textOf(value, quantity, LightUnit::Candela);
+    if (!value.mixed)
+        text.shown = fmt::format(
+            "{:.{}f}", isAngle ? glm::degrees(std::get<double>(value.value)) : std::get<double>(value.value),
+            isAngle ? 1 : 3);
+    if (text.shown == (isAngle ? "-0.0" : "-0.000")) text.shown.erase(0, 1);
+    text.unit.clear(); // in the label
+    const char* what = isAngle ? "Rotation" : "Position";
+    const FieldEvent event = valueField(
+        desk, fmt::format("{}.{}", isAngle ? "rotation" : "position", kAxes[axis]), text, widthPx, nullptr);
+    if (event.kind == FieldEvent::Kind::None) return;
+    const bool dragged = event.kind == FieldEvent::Kind::Dragged;
+    Result<ValueEntry> entry =
+        dragged ? Result<ValueEntry>(entryOf(event.pixels, isAngle ? glm::radians(0.5) : 0.01))
+                : parseEntry(event.text, quantity);
+    if (!entry) return tellRefused(desk, what, entry.error());
+    const Scene& from = dragged ? state.dragStart : scene;
+    const Result<Edits> edits =
+        isAngle ? editsForAngle(scene, from, state.selection, axis, entry.value(), angleHint(state))
+                : editsForPosition(scene, from, state.selection, axis, entry.value());
+    if (applyEdits(desk, edits, stepName(desk, what), dragged ? dragKey(state) : "") && dragged &&
+        !edits.value().empty())
+        noteDragged(desk);
+}
+
+void drawTriple(Desk& desk, const char* label, const char* help, bool isAngle) {
+    const float width = rowLabel(desk, label, help), gap = px(desk, 4);
+    const float each = std::floor((width - 2 * gap) / 3.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (axis > 0) ImGui::SameLine(0, gap);
+        drawCoordinate(desk, isAngle, axis, each);
+    }
+}
+
+// A number of a group, by its field in the table of edits.
+void drawGroupNumber(Desk& desk, std::uint64_t group, const char* label, const char* name, Quantity quantity,
+                     double step, const char* help) {
+    PropertiesState& state = propertiesOf(desk);
+    const EditField& field = *findEditField(EditTarget::Group, name);
+    const CommonValue value{field.get(desk.session->scene(), group), false};
+    const float width = rowLabel(desk, label, help);
+    const FieldEvent event = valueField(desk, std::string("group.") + name,
+                                        textOf(value, quantity, LightUnit::Candela), width, help);
+    if (event.kind == FieldEvent::Kind::None) return;
+    const bool dragged = event.kind == FieldEvent::Kind::Dragged;
+    const Result<ValueEntry> entry =
+        dragged ? Result<ValueEntry>(entryOf(event.pixels, step)) : parseEntry(event.text, quantity);
+    if (!entry) return tellRefused(desk, label, entry.error());
+    const double before =
+        std::get<double>(field.get(dragged ? state.dragStart : desk.session->scene(), group));
+    double after = changed(before, entry.value());
+    if (dragged) after = std::clamp(after, field.min, field.max);
+    const Result<Edits> edits = setField(desk.session->scene(), EditTarget::Group, group, field, after);
+    if (applyEdits(desk, edits, fmt::format("Group {}", lowered(label)), dragged ? dragKey(state) : "") &&
+        dragged && !edits.value().empty())
+        noteDragged(desk);
+}
+
+// A swatch with a picker behind it, and the numbers to type. Returns the new colour; `ended` closes a drag in
+// it.
+std::optional<glm::dvec3> colorField(Desk& desk, const std::string& id, const CommonValue& value,
+                                     float widthPx, bool& ended) {
+    PropertiesState& state = propertiesOf(desk);
+    const glm::dvec3 linear = std::get<glm::dvec3>(value.value);
+    const double most = std::max({linear.x, linear.y, linear.z, 1.0}); // brighter tints keep their brightness
+    const glm::dvec3 srgb = srgbFromLinear(linear / most);
+    float picked[3] = {float(srgb.x), float(srgb.y), float(srgb.z)};
+    const float side = ImGui::GetFrameHeight();
+    std::optional<glm::dvec3> result;
+    ImGui::PushID(id.c_str());
+    if (ImGui::ColorButton("##swatch", {picked[0], picked[1], picked[2], 1.0f}, ImGuiColorEditFlags_NoTooltip,
+                           {side, side})) {
+        ++state.drags;
+        ImGui::OpenPopup("picker");
+    }
+    mark(desk, id + ".swatch");
+    if (ImGui::BeginPopup("picker")) {
+        closePopupOnEscape();
+        if (ImGui::ColorPicker3("##picker", picked,
+                                ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayRGB))
+            result = most * linearFromSrgb({picked[0], picked[1], picked[2]});
+        ended = !ImGui::IsMouseDown(0) && !ImGui::IsAnyItemActive();
+        ImGui::EndPopup();
+    }
+    ImGui::PopID();
+    ImGui::SameLine(0, px(desk, 4));
+    const std::string text = formatColor(linear);
+    const FieldEvent event =
+        valueField(desk, id,
+                   {value.mixed ? "mixed" : text, "", value.mixed ? "" : text,
+                    value.mixed ? FieldText::Tone::Dim : FieldText::Tone::Bright},
+                   widthPx - side - px(desk, 4), "Linear red, green, blue; or #rrggbb", FieldDrag::Never);
+    if (event.kind != FieldEvent::Kind::Typed) return result;
+    const Result<glm::dvec3> typed = parseColor(event.text);
+    if (!typed) {
+        tellRefused(desk, "Tint", typed.error());
+        return result;
+    }
+    ended = true;
+    return typed.value();
+}
+
+} // namespace
+
+float rowLabel(Desk& desk, const char* label, const char* help) {
+    const float whole = ImGui::GetContentRegionAvail().x;
+    const float labels = std::min(px(desk, 108), 0.42f * whole);
+    const float x = ImGui::GetCursorPosX();
+    ImGui::AlignTextToFramePadding();
+    textWithin(label, labels - px(desk, 4));
+    if (help) tooltip(help);
+    ImGui::SameLine(x + labels);
+    return whole - labels;
+}
+
+const CommonValue& valueOf(Desk& desk, const char* field) {
+    PropertiesState& state = propertiesOf(desk);
+    const auto [at, isNew] = state.values.try_emplace(field);
+    if (isNew) at->second = commonValue(desk.session->scene(), state.selection, field);
+    return at->second;
+}
+
+void drawFieldRow(Desk& desk, const LightField& row) {
+    PropertiesState& state = propertiesOf(desk);
+    const bool isIntensity = row.quantity == Quantity::Intensity;
+    const CommonValue value = valueOf(desk, row.field);
+    const CommonValue unit = isIntensity ? valueOf(desk, "unit") : CommonValue{LightUnit::Candela, false};
+    float width = rowLabel(desk, row.label, row.help);
+    const float unitWidth = isIntensity ? px(desk, 52) : 0.0f;
+    FieldText text = textOf(value, row.quantity, std::get<LightUnit>(unit.value), absentWord(row.field));
+    if (isIntensity) text.unit.clear(); // beside it
+    const FieldEvent event =
+        valueField(desk, row.field, text, width - (isIntensity ? unitWidth + px(desk, 4) : 0.0f), row.help);
+    if (isIntensity) {
+        ImGui::SameLine(0, px(desk, 4));
+        drawUnit(desk, unitWidth);
+    }
+    if (event.kind == FieldEvent::Kind::None) return;
+    const bool dragged = event.kind == FieldEvent::Kind::Dragged;
+    const Result<ValueEntry> entry =
+        dragged ? Result<ValueEntry>(entryOf(event.pixels, row.step)) : parseEntry(event.text, row.quantity);
+    if (!entry) return tellRefused(desk, row.label, entry.error());
+    // Nothing there to drag from.
+    if (dragged && std::holds_alternative<std::monostate>(value.value)) return;
+    const Scene& scene = desk.session->scene();
+    const Result<Edits> edits =
+        editsForEntry(scene, dragged ? state.dragStart : scene, state.selection, row, entry.value(),
+                      state.sharing, dragged ? OutOfRange::Clamp : OutOfRange::Refuse);
+    if (applyEdits(desk, edits, stepName(desk, row.label), dragged ? dragKey(state) : "") && dragged &&
+        !edits.value().empty())
+        noteDragged(desk);
+}
+
+void drawPlaceRows(Desk& desk) {
+    drawTriple(desk, "Position  m", "In the world: X, Y up, Z", false);
+    // The lights may be gone after an edit.
+    if (!desk.selection.empty())
+        drawTriple(desk, "Rotation  \u00b0", "About X, then Y, then Z of the world", true);
+}
+
+void drawTintRow(Desk& desk) {
+    PropertiesState& state = propertiesOf(desk);
+    bool ended = false;
+    const CommonValue value = valueOf(desk, "color");
+    const float width = rowLabel(desk, "Tint", "Multiplies the temperature's colour");
+    const auto color = colorField(desk, "color", value, width, ended);
+    if (color) {
+        applyEdits(desk,
+                   editsForValue(desk.session->scene(), state.selection, "color", *color, state.sharing),
+                   stepName(desk, "Tint"), fmt::format("tint {}", state.drags));
+    }
+    if (ended && desk.session->history().wouldMerge(fmt::format("tint {}", state.drags)))
+        endDrag(desk), ++state.drags;
+}
+
+void drawGroupRows(Desk& desk, std::uint64_t group) {
+    PropertiesState& state = propertiesOf(desk);
+    drawGroupNumber(desk, group, "Master", "intensity", Quantity::Number, 0.005,
+                    "A factor on all its lights");
+    drawGroupNumber(desk, group, "Exposure", "exposureEv", Quantity::Exposure, 0.01,
+                    "A second factor, in stops");
+    bool ended = false;
+    const CommonValue value{findEditField(EditTarget::Group, "tint")->get(desk.session->scene(), group),
+                            false};
+    const float width = rowLabel(desk, "Tint", "On all its lights");
+    if (const auto color = colorField(desk, "group.tint", value, width, ended)) {
+        applyEdits(desk, setField(desk.session->scene(), EditTarget::Group, group, "tint", *color),
+                   "Group tint", fmt::format("tint {}", state.drags));
+    }
+    if (ended && desk.session->history().wouldMerge(fmt::format("tint {}", state.drags)))
+        endDrag(desk), ++state.drags;
+    if (textButton(desk, "group.select", "Select its lights"))
+        select(desk, membersOf(desk.session->scene(), group));
+}
+
+} // namespace kilolux
