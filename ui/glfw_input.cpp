@@ -21,8 +21,15 @@ InputEvent eventAt(GLFWwindow* window, InputEvent::Kind kind) {
     InputEvent event;
     event.kind = kind;
     event.atMs = steadyMs();
-    glfwGetCursorPos(window, &event.px.x, &event.px.y);
-    event.px *= of(window).pxPerPoint;
+    // Where the pointer was told to be last: asked now, X says where it is by now, which may be far from the
+    // press.
+    const GlfwInput& input = of(window);
+    if (input.pointerPx) {
+        event.px = *input.pointerPx;
+    } else {
+        glfwGetCursorPos(window, &event.px.x, &event.px.y);
+        event.px *= input.pxPerPoint;
+    }
     return event;
 }
 
@@ -33,6 +40,7 @@ bool isModifier(int key) {
 void onMove(GLFWwindow* window, double x, double y) {
     InputEvent event = eventAt(window, InputEvent::Kind::Move);
     event.px = glm::dvec2(x, y) * of(window).pxPerPoint;
+    of(window).pointerPx = event.px;
     of(window).queue.push(event);
 }
 

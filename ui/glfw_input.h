@@ -4,6 +4,7 @@
 #include "ui/event_queue.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 struct GLFWwindow;
@@ -13,9 +14,10 @@ namespace kilolux {
 // What the window's callbacks fill. It must outlive the window.
 struct GlfwInput {
     EventQueue queue;
-    std::vector<std::string> dropped; // files let go over the window
-    bool changed = false;             // size, focus, exposure: a redraw is due
-    glm::dvec2 pxPerPoint{1.0};       // of the pointer's position
+    std::vector<std::string> dropped;    // files let go over the window
+    bool changed = false;                // size, focus, exposure: a redraw is due
+    glm::dvec2 pxPerPoint{1.0};          // of the pointer's position
+    std::optional<glm::dvec2> pointerPx; // by the newest move; none yet: nothing
     GLFWwindow* window = nullptr;
 };
 
