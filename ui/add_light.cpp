@@ -16,7 +16,10 @@ void drawAddMenu(Desk& desk) {
     GizmoState& state = viewportTools(desk);
     if (!state.addMenuPx) return;
     const glm::dvec2 at = *state.addMenuPx;
-    ImGui::SetNextWindowPos({float(at.x), float(at.y)}, ImGuiCond_Appearing);
+    // Towards the middle, where there is room for it.
+    const glm::dvec2 middle = desk.viewport.rect.center();
+    ImGui::SetNextWindowPos({float(at.x), float(at.y)}, ImGuiCond_Always,
+                            {at.x > middle.x ? 1.0f : 0.0f, at.y > middle.y ? 1.0f : 0.0f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
     ImGui::Begin("add light", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

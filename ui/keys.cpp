@@ -46,6 +46,8 @@ constexpr KeyRow kRows[] = {
     {Camera, "Middle mouse", "Pan"},
     {Camera, "Wheel", "Nearer and farther"},
     {Views, "1 to 9", "Debug views; again: the picture"},
+    {Views, "P, then a click", "Probe a pixel"},
+    {Views, "B", "Toggle the stored picture"},
     {Window, "Tab", "Hide or show all panels"},
     {Window, "F1", "This list", KeyAction::Help, GLFW_KEY_F1},
 };

@@ -168,7 +168,7 @@ class Lights(WindowCase):
         window.click(center)
         self.wait_document(selection=[2])
         x, y, w, h = window.state()["viewport"]
-        window.drag([x + 4, y + 4], [x + w - 4, y + h - 4])
+        window.drag([x + 20, y + 20], [x + w - 20, y + h - 20])
         self.wait_document(selection=[1, 2, 3, 4, 5, 6, 7])
         window.click(center, hold=[SHIFT])
         self.wait_document(selection=[1, 3, 4, 5, 6, 7])
@@ -217,7 +217,7 @@ class Lights(WindowCase):
                     self.fail(f"light {light} has no field {field}")
                 window.settle()
                 place = window.state()["places"][field]
-                if place[1] + place[3] > self.SIZE[1] - 30:  # below the fold: shut what stands above
+                if place[1] + place[3] > self.size[1] - 30:  # below the fold: shut what stands above
                     for section in ("Light", "Place"):
                         window.click(f"section.{section}")
                     window.settle()
@@ -326,7 +326,7 @@ class Lights(WindowCase):
         window.key("BackSpace")
         window.key("Escape")
         x, y, w, h = window.state()["viewport"]
-        window.drag([x + 4, y + 4], [x + w - 4, y + h - 4])
+        window.drag([x + 20, y + 20], [x + w - 20, y + h - 20])
         window.wait(lambda s: len(s["document"]["selection"]) > 5000, "thousands to be selected")
         self.enter("intensity", "*2")
         window.wait(lambda s: s["document"]["undo"].startswith("Intensity of"), "the edit", 120)

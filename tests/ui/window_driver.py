@@ -300,8 +300,9 @@ class Window:
     def type(self, text):
         def act():
             count = 0
-            for character in text:
-                time.sleep(0.003)  # GLFW takes a key's second press in one millisecond for an echo of the first
+            for before, character in zip(" " + text, text):
+                # GLFW takes a key's second press within 20 ms for an echo of the first, when it finds both waiting.
+                time.sleep(0.025 if before.lower() == character.lower() else 0.003)
                 shift = character.isupper() or character in _SHIFTED
                 if shift:
                     self.screen.key("Shift_L", True)
