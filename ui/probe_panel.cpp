@@ -109,7 +109,8 @@ void drawLights(Desk& desk, const Probe& probe) {
     if (!ImGui::BeginTable("lights", 5, kFlags, {0, ImGui::GetContentRegionAvail().y})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     ImGui::TableSetupColumn("Light", ImGuiTableColumnFlags_WidthStretch);
-    for (const char* title : {"lux", "share", "seen", "prob."})
+    ImGui::TableSetupColumn("lux", ImGuiTableColumnFlags_WidthFixed, px(desk, 48));
+    for (const char* title : {"share", "seen", "prob."})
         ImGui::TableSetupColumn(title, ImGuiTableColumnFlags_WidthFixed, px(desk, 40));
     ImGui::TableHeadersRow();
     ImGui::PushFont(theme::smallFont());
