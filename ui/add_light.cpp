@@ -41,7 +41,9 @@ void drawAddMenu(Desk& desk) {
         ImGui::GetWindowDrawList()->AddText({from.x + px(desk, 28), top}, theme::kText,
                                             typeName(word.type).data());
     }
-    const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered();
+    // The row that is pressed is active by now.
+    const bool outside =
+        ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem);
     ImGui::End();
     ImGui::PopStyleColor();
     if (outside) state.addMenuPx.reset();
