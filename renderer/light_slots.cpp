@@ -37,9 +37,13 @@ std::uint32_t LightSlots::take(std::uint64_t id, std::uint64_t frame) {
 
 void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame) {
     changed_ = edited_ = false;
+    const auto isFresh = [&](const Slot& slot) {
+        return slot.wasEdited && frame < slot.editedFrame + LIGHT_EDITED_FRAMES;
+    };
     const auto markEdited = [&](Slot& slot) {
         if (first_) return;
         ++slot.epoch;
+        if (!isFresh(slot)) slot.firstEditedFrame = frame;
         slot.editedFrame = frame;
         slot.wasEdited = edited_ = true;
     };
@@ -69,8 +73,10 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
     }
     for (std::uint32_t i = 0; i < slots_.size(); ++i) {
         LightHot hot = plain_[i];
-        const bool recent = slots_[i].wasEdited && frame < slots_[i].editedFrame + LIGHT_EDITED_FRAMES;
-        if (recent) hot.typeFlags |= LIGHT_FLAG_EDITED;
+        if (isFresh(slots_[i])) {
+            const bool just = frame < slots_[i].firstEditedFrame + LIGHT_JUST_EDITED_FRAMES;
+            hot.typeFlags |= LIGHT_FLAG_EDITED | (just ? LIGHT_FLAG_JUST_EDITED : 0u);
+        }
         hot.typeFlags |= (slots_[i].epoch & LIGHT_EPOCH_MASK) << LIGHT_EPOCH_SHIFT;
         changed_ = changed_ || !sameBytes(hot, hot_[i]);
         hot_[i] = hot;

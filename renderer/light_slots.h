@@ -43,6 +43,7 @@ class LightSlots {
         std::uint32_t epoch = 0;
         std::uint64_t diedFrame = 0;
         std::uint64_t editedFrame = 0;
+        std::uint64_t firstEditedFrame = 0; // of the edits that follow one another without a rest
         bool wasEdited = false;
     };
     std::uint32_t take(std::uint64_t id, std::uint64_t frame);

@@ -47,10 +47,11 @@ const uint ITEM_MASK_SHIFT = 16u;
 // The includer's: what looks at each candidate. `weight` is that before the threshold and the stride.
 void seeCandidate(Candidate c, float weight);
 
-// The mask that an entry gives a light: none where it is not to be trusted.
+// The mask that an entry gives a light: none where it is not to be trusted. What was seen for less than a window of
+// frames may be one sample of a light that the tile hardly sees: its other quarters are unknown, not hidden.
 uint maskOfEntry(VisibleEntry entry, LightHot light) {
     bool current = entry.epoch == (light.typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK);
-    return current && frame.sampling.areaMasks != 0u ? entry.recent | entry.older : 0u;
+    return current && entry.older != 0u && frame.sampling.areaMasks != 0u ? entry.recent | entry.older : 0u;
 }
 
 // Beside the selection: what was decided on the way.
@@ -98,12 +99,14 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         uint slot = directional ? directionalSlots[sun] : walk.slot;
         if (slot >= frame.lightCount) continue; // a foreign list
         LightHot light = loadOwnLightHot(slot);
-        bool isEdited = (light.typeFlags & LIGHT_FLAG_EDITED) != 0u;
+        // What the past must give up: twice as much in the first frames, when all of it is another light's.
+        float edited = (light.typeFlags & LIGHT_FLAG_EDITED) == 0u ? 0.0
+                       : (light.typeFlags & LIGHT_FLAG_JUST_EDITED) == 0u ? 1.0 : SAMPLE_MOST_EDITED;
         uint mask = 0u;
         if (walk.maskEntry != KX_NO_LIGHT && !directional) {
             uvec2 entry = texelFetch(visibleLists, int(visibleAt + walk.maskEntry)).xy;
             float energy = float(entry.y);
-            listed += vec2(energy, isEdited ? energy : 0.0);
+            listed += vec2(energy, energy * edited);
             mask = maskOfEntry(unpackEntry(entry.x), light);
         }
         if (kDirectionalLights && !directional && lightType(light) == LIGHT_DIRECTIONAL) continue;
@@ -113,7 +116,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         if (atHalf && lightReaches(light, receiver.point.positionWs))
             weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));
         uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
-        if (list != LIST_HIDDEN) likely += vec2(weight, isEdited ? weight : 0.0);
+        if (list != LIST_HIDDEN) likely += vec2(weight, weight * edited);
         float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
         Candidate candidate = makeCandidate(slot | mask << ITEM_MASK_SHIFT, list, weight, state.stride, how.dimThreshold,
                                             how.dimMode, dimNumber);
@@ -127,7 +130,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     float editedShare = max(listed.y / max(listed.x, 1.0e-20), likely.y / max(likely.x, 1.0e-20));
     state.flags = missed ? SAMPLE_MISSED : 0u;
     if (editedShare > 0.0)
-        state.flags |= SAMPLE_EDITED | uint(ceil(min(editedShare, 1.0) * 255.0)) << SAMPLE_EDITED_SHIFT;
+        state.flags |= SAMPLE_EDITED | uint(ceil(min(editedShare / SAMPLE_MOST_EDITED, 1.0) * 255.0)) << SAMPLE_EDITED_SHIFT;
     return state;
 }
 

@@ -22,6 +22,7 @@ layout(rgba16f) writeonly uniform image2D denoisedDiffuseOut;
 layout(rgba16f) writeonly uniform image2D denoisedSpecularOut;
 
 const float kNewFrames = 4.0;    // up to which a history counts as new
+const float kSqueezedFrames = 1.75; // the shortest history after an edit, and up
 const float kTaps = 6.0;
 const float kTapsNew = 12.0;     // where it is new
 const float kDeviations = 1.0;   // apart at which two pixels mix by half
@@ -57,6 +58,7 @@ struct Signal {
     float error; // standard error of the pixel's luminance
     float need;
     float isNew; // 1: the first frame of a history, 0 from kNewFrames on
+    float squeeze; // how far sums are tone-mapped: not where an edit shortened a history, as that would darken it
 };
 
 // `moments`: mean and standard deviation of luminance around the pixel and over time.
@@ -65,6 +67,7 @@ Signal makeSignal(vec4 light, vec2 moments) {
     s.rgb = light.rgb;
     s.y = moments.x;
     s.isNew = saturate((kNewFrames - light.a) / (kNewFrames - 1.0));
+    s.squeeze = saturate((kSqueezedFrames - light.a) / (kSqueezedFrames - 1.0));
     // An exponential mean over n frames has the error of 2 n - 1 independent ones.
     s.error = moments.y * inversesqrt(max(2.0 * light.a - 1.0, 1.0));
     float relative = s.error / (s.y + kDarkest);
@@ -120,7 +123,7 @@ void main() {
         int taps = int(mix(kTaps, kTapsNew, isNew) + 0.5);
         vec2 turn = diskTurn(pixel);
         float lobe = saturate(here.roughness / kRoughLobe);
-        vec3 hereD = compressed(d.rgb, d.isNew), hereS = compressed(s.rgb, s.isNew);
+        vec3 hereD = compressed(d.rgb, d.squeeze), hereS = compressed(s.rgb, s.squeeze);
         vec3 sumD = hereD, sumS = hereS;
         float share = 1.0 / float(taps + 1);
         vec2 dir = vec2(cos(turn.x * KX_TWO_PI), sin(turn.x * KX_TWO_PI));
@@ -138,7 +141,7 @@ void main() {
             vec4 momentsThere = texelFetch(historyMoments, other, 0);
             if (d.need > 0.0) {
                 Signal dThere = makeSignal(lightD, momentsThere.xy);
-                sumD += share * w * mixWeight(d, dThere) * (compressed(dThere.rgb, d.isNew) - hereD);
+                sumD += share * w * mixWeight(d, dThere) * (compressed(dThere.rgb, d.squeeze) - hereD);
             }
             if (s.need <= 0.0) continue;
             // Smooth surfaces show sharp highlights: their taps end sooner.
@@ -146,10 +149,10 @@ void main() {
             float wS = w * saturate(2.0 - 2.0 * radius / max(reach, 1.0e-3));
             if (wS <= 0.0) continue;
             Signal sThere = makeSignal(texelFetch(historySpecular, other, 0), momentsThere.zw);
-            sumS += share * wS * mixWeight(s, sThere) * (compressed(sThere.rgb, s.isNew) - hereS);
+            sumS += share * wS * mixWeight(s, sThere) * (compressed(sThere.rgb, s.squeeze) - hereS);
         }
-        diffuse.rgb = expanded(sumD, d.isNew);
-        specular.rgb = expanded(sumS, s.isNew);
+        diffuse.rgb = expanded(sumD, d.squeeze);
+        specular.rgb = expanded(sumS, s.squeeze);
     }
     imageStore(denoisedDiffuseOut, at, vec4(storableLight(diffuse.rgb), diffuse.a));
     imageStore(denoisedSpecularOut, at, vec4(storableLight(specular.rgb), specular.a));

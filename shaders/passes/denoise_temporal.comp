@@ -38,6 +38,7 @@ const float kFilledFrames = 0.25;   // what light that was borrowed from neighbo
 const float kMomentFrames = 12.0;   // that the deviation remembers
 const float kRelaxed = 2.0;         // of the clip width where the sample was reconstructed
 const float kLeastExtent = 0.1;     // of display white: smaller boxes do not shorten history (the talk)
+const float kDarkest = 1.0e-3;      // of display white: no change is seen below, and dim lights are found rarely
 const float kTaps = 25.0;
 const float kMovesPx = 0.1;    // a picture that moves
 const float kRoughLobe = 0.6;  // roughness from which on highlights are as wide as shading
@@ -174,7 +175,7 @@ Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums su
         vec3 remembered = moments.y * max(abs(before) / max(before.x, 1.0e-6), vec3(0.1, 0.0, 0.0));
         float width = frame.denoising.clipWidth * sqrt(kTaps / count) * sqrt(1.0 + 1.0 / frames) *
                       (valid < 1.0 ? kRelaxed : 1.0);
-        vec3 extent = width * max(noise, remembered);
+        vec3 extent = max(width * max(noise, remembered), vec3(kDarkest));
         vec3 byChange = change - clamp(change, -extent, extent);
         vec3 box = width / frame.denoising.clipWidth * max(spread, remembered);
         vec3 byBox = clamp(before, mean - box, mean + box) - before;

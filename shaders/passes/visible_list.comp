@@ -38,11 +38,12 @@ uvec2 carriedEntry(uvec2 texel) {
     uvec2 none = uvec2(kNone, 0u);
     if (e.slot >= frame.lightCount) return none;
     uint typeFlags = loadLightHot(e.slot).typeFlags;
-    // A light that went out stays while its edit is fresh: pixels that meet it cap their history.
-    bool off = (typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) != 0u;
-    if (off && (typeFlags & LIGHT_FLAG_EDITED) == 0u) return none;
+    // A light that went out or away stays as strong as it was while its edit is fresh: pixels that meet it cap their
+    // history.
+    bool off = (typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) != 0u, edited = (typeFlags & LIGHT_FLAG_EDITED) != 0u;
+    if (off && !edited) return none;
     e.age = min(e.age + 1u, 15u);
-    if (e.age > frame.sampling.listMemory) return none;
+    if (e.age > frame.sampling.listMemory && !edited) return none;
     uint epoch = typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
     bool same = epoch == e.epoch;
     if (frame.sampling.noiseFrame % ENTRY_WINDOW == 0u) {
@@ -52,7 +53,7 @@ uvec2 carriedEntry(uvec2 texel) {
     e.older = same ? e.older : 0u;
     e.recent = same ? e.recent : 0u;
     e.epoch = epoch;
-    return uvec2(packEntry(e), texel.y - texel.y / 4u);
+    return uvec2(packEntry(e), edited ? texel.y : texel.y - texel.y / 4u);
 }
 
 // What a sample adds: x = slot, y = energy << 4 | quarter. kNone for what was not seen.

@@ -15,8 +15,11 @@ KX_CONST uint SAMPLE_SLOT_MASK = 0xffffu;
 KX_CONST uint SAMPLE_LIST_SHIFT = 16u;
 KX_CONST uint SAMPLE_LIST_MASK = 3u;
 KX_CONST uint SAMPLE_EDITED = 1u << 18u; // a light that reaches the pixel, or did, was just edited
-KX_CONST uint SAMPLE_EDITED_SHIFT = 24u; // share of such lights in the pixel's light, 8 bits, rounded up
-KX_CONST uint SAMPLE_MISSED = 1u << 19u; // reprojection failed
+// Share of such lights in the pixel's light, in the first frames counted SAMPLE_MOST_EDITED times: 8 bits for
+// what goes up to that, rounded up.
+KX_CONST uint SAMPLE_EDITED_SHIFT = 24u;
+KX_CONST float SAMPLE_MOST_EDITED = 2.0f;
+KX_CONST uint SAMPLE_MISSED = 1u << 19u;        // reprojection failed
 KX_CONST uint SAMPLE_RECONSTRUCTED = 1u << 20u; // no neighbour fitted when samples were brought to full size
 KX_CONST uint SAMPLE_LIGHT_LIMIT = 0xffffu;     // slots below this fit
 

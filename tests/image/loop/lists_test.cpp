@@ -16,7 +16,8 @@ using namespace shared;
 using Texels = std::vector<glm::uvec2>;
 
 std::uint32_t entryWord(std::uint32_t slot, std::uint32_t epoch, std::uint32_t mask, std::uint32_t age) {
-    return slot | epoch << ENTRY_EPOCH_SHIFT | mask << ENTRY_RECENT_SHIFT | age << ENTRY_AGE_SHIFT;
+    return slot | epoch << ENTRY_EPOCH_SHIFT | mask << ENTRY_RECENT_SHIFT | mask << ENTRY_OLDER_SHIFT |
+           age << ENTRY_AGE_SHIFT;
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -131,6 +132,41 @@ TEST(ListFuzz, AnyListKeepsTheMean) {
             return lightOf(loop.next());
         };
         expectSameMean(gather(replica, 0.0012, 300), reference, forced.name);
+    }
+}
+
+// A quarter that was seen once says nothing of the others: masks count from their second window of frames on.
+TEST(Lists, MasksOfLessThanAWindowAreNotBelieved) {
+    SceneBuilder b;
+    b.quad(floorAt({0, 0, 0}), 4, 4, b.material({0.6, 0.6, 0.6}, 0.0, 0.9));
+    LightDef def = lightDef(LightType::Rect, 3000, LightUnit::Lumen);
+    def.widthM = def.heightM = 1.0;
+    def.rangeM = 20.0;
+    b.light(def, lookingAlong({0, 5, 0}, {0, -1, 0}));
+    b.scene.cameras.push_back(cameraLooking({0, 4, 0.01}, {0, 0, 0}));
+    RenderOptions options = loopOptions(64, 48);
+    options.keepTargets = true;
+    Loop loop(withIds(std::move(b.scene)), options);
+    loop.frames(1);
+    for (const bool seenBefore : {false, true}) {
+        Texels texels = loop.renderer().visibleLists();
+        for (std::size_t first = 0; first < texels.size(); first += LIST_TEXELS) {
+            texels[first] = {1, 0};
+            texels[first + 1] = {1u << ENTRY_RECENT_SHIFT | (seenBefore ? 1u << ENTRY_OLDER_SHIFT : 0u), 1};
+        }
+        loop.renderer().replaceVisibleLists(texels);
+        loop.frames(1);
+        const std::vector<std::byte> samples = loop.targets().named("samples").texels;
+        double inFirst = 0.0, all = 0.0;
+        for (std::size_t at = 0; at < samples.size(); at += 16) {
+            std::uint32_t words[4];
+            std::memcpy(words, samples.data() + at, 16);
+            if (words[2] == 0u) continue; // no light
+            inFirst += (words[1] & 0xffffu) < 0x8000u && words[1] >> 16 < 0x8000u;
+            all += 1.0;
+        }
+        EXPECT_GT(all, 1000.0);
+        EXPECT_NEAR(inFirst / all, seenBefore ? 0.7 : 0.25, 0.05);
     }
 }
 

@@ -16,11 +16,12 @@ TEST(StepResponse, InFrames) {
         EXPECT_GT(r.region, 0.2) << "of the picture changes";
         if (r.name == "cut") EXPECT_LE(r.error.at(0), 0.05) << "no history, no lag";
         if (r.name == "+10 EV")
-            EXPECT_LE(r.error.at(7), 0.3) << "lights are dim now: other noise, same light";
+            EXPECT_LE(r.error.at(7), 0.02) << "lights are dim now: other noise, same light";
         if (r.rest.empty()) continue;
-        EXPECT_LE(r.rest.at(0), 0.75) << "in the very next frame";
-        EXPECT_LE(r.rest.at(7), 0.5) << "after eight frames";
-        EXPECT_LE(r.rest.at(23), 0.35) << "after twenty-four frames";
+        EXPECT_LE(r.rest.at(0), 0.55) << "in the very next frame";
+        EXPECT_LE(r.rest.at(3), 0.13) << "after four frames";
+        EXPECT_LE(r.rest.at(7), 0.05) << "after eight frames";
+        EXPECT_LE(r.rest.at(23), 0.03) << "after twenty-four frames";
     }
 }
 
