@@ -131,11 +131,10 @@ double sampleBlackmanHarris(double u) {
 
 } // namespace
 
-glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index, std::uint32_t seed) {
-    // R2 sequence (Roberts 2018, the plastic number), turned by the seed: even over few samples.
-    const double turn = double(seed) * 0.38196601125;
-    const double u = std::fmod(0.5 + turn + double(index) * 0.7548776662466927, 1.0);
-    const double v = std::fmod(0.5 + turn + double(index) * 0.5698402909980532, 1.0);
+glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index) {
+    // R2 sequence (Roberts 2018, the plastic number): even over few samples.
+    const double u = std::fmod(0.5 + double(index) * 0.7548776662466927, 1.0);
+    const double v = std::fmod(0.5 + double(index) * 0.5698402909980532, 1.0);
     if (filter == PixelFilter::Box) return {u - 0.5, v - 0.5};
     return {sampleBlackmanHarris(u), sampleBlackmanHarris(v)};
 }

@@ -26,8 +26,8 @@ void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::d
                int heightPx, glm::dvec2 jitterPx, double aspect = 0.0);
 
 // Sub-pixel offset of the i-th progressive sample, in pixels about the centre, distributed as the filter
-// (filter importance sampling): the plain mean of samples is then the filtered picture.
-
-glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index, std::uint32_t seed);
+// (filter importance sampling): the plain mean of samples is then the filtered picture. The same for every
+// seed: pictures of as many frames have the same edges, and what differs between them is light.
+glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index);
 
 } // namespace kilolux

@@ -84,7 +84,7 @@ void Renderer::Impl::describeFrame(std::uint32_t index, glm::ivec2 outputPx, con
     const std::uint32_t noiseFrame =
         settings.freezeNoise && frozen(index) ? std::uint32_t(settings.freezeFrame) : index;
     const glm::dvec2 jitter =
-        settings.jitter ? filterOffset(settings.pixelFilter, noiseFrame, options.seed) : glm::dvec2(0.0);
+        settings.jitter ? filterOffset(settings.pixelFilter, noiseFrame) : glm::dvec2(0.0);
     const glm::ivec2 inner =
         glm::max(glm::ivec2(glm::round(glm::dvec2(outputPx) * settings.renderScale)), glm::ivec2(1));
     const shared::FrameConstants before = constants;

@@ -57,13 +57,13 @@ struct Settings {
     double missHiddenShare = 0.5;
     double hiddenRelaxedBelow = 0.02;
     double directionalShare = 0.5;
-    double directionalFreeBelow = 0.02;
+    double directionalFreeBelow = 0.002;
     int cellCandidates = 8;
     int missCandidates = 32;
     DimLights dimLights = DimLights::Roulette;
     double dimThreshold = 0.002;
     PictureChoice picture = PictureChoice::Viewport;
-    double settleError = 0.15;
+    double settleError = 0.5;
     bool denoise = true;
     double diffuseFrames = 24.0;
     double specularFrames = 16.0;

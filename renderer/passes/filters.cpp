@@ -80,6 +80,8 @@ AntiAliasPass::AntiAliasPass(gpu::PassResources& resources)
              {"motion"},
              {"sceneColor"},
              {"litSpecular"},
+             {"historyDiffuse", Access::Read, Presence::Optional},
+             {"historySpecular", Access::Read, Presence::Optional},
              {"previousAntiAliased"},
              {"previousPixelMoments"},
              {"antiAliasedOut", Access::Write},
@@ -87,17 +89,21 @@ AntiAliasPass::AntiAliasPass(gpu::PassResources& resources)
 
 void AntiAliasPass::record(FrameContext& frame) {
     const Targets& targets = frame.targets;
-    pass_.record(frame.commands, frame.features,
-                 {{"Frame", frame.frameBuffer},
-                  {"gDepth", targets.gDepth},
-                  {"motion", targets.motion},
-                  {"sceneColor", targets.sceneColor},
-                  {"litSpecular", targets.litSpecular},
-                  {"previousAntiAliased", targets.previousAntiAliased, gpu::SamplerKind::LinearClamp},
-                  {"previousPixelMoments", targets.previousPixelMoments},
-                  {"antiAliasedOut", targets.antiAliased},
-                  {"pixelMomentsOut", targets.pixelMoments}},
-                 frame.tiles());
+    gpu::Bindings bindings{
+        {"Frame", frame.frameBuffer},
+        {"gDepth", targets.gDepth},
+        {"motion", targets.motion},
+        {"sceneColor", targets.sceneColor},
+        {"litSpecular", targets.litSpecular},
+        {"previousAntiAliased", targets.previousAntiAliased, gpu::SamplerKind::LinearClamp},
+        {"previousPixelMoments", targets.previousPixelMoments},
+        {"antiAliasedOut", targets.antiAliased},
+        {"pixelMomentsOut", targets.pixelMoments}};
+    if (targets.historyDiffuse) {
+        bindings.push_back({"historyDiffuse", targets.historyDiffuse});
+        bindings.push_back({"historySpecular", targets.historySpecular});
+    }
+    pass_.record(frame.commands, frame.features, bindings, frame.tiles());
 }
 
 AccumulatePass::AccumulatePass(gpu::PassResources& resources)

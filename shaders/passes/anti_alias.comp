@@ -3,7 +3,9 @@
 // SIGGRAPH 2014), history clipped to the variance of the 3 x 3 neighbourhood in YCoCg (Salvi, GDC 2016) or, where
 // that is more, to the variance that the pixel itself has shown over the last frames: a lamp's edge that jitter
 // meets in one frame of ten is in no box of the other nine, and clipping would take it away. Only what stands still
-// has such a past: behind what moves, it would keep ghosts.
+// has such a past: behind what moves, it would keep ghosts. And where the denoiser, which tells change from noise, holds
+// all the frames that it may, light did not change: boxes are wide there. Each clip costs energy, as it takes what is
+// rare and bright more often than what is dark.
 //
 // Jitter is drawn from the pixel filter, so frames count alike, and light is averaged as it is: a still picture
 // converges to the supersampled one. (Weights by tone mapping would darken the rims of lamps.)
@@ -16,6 +18,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gDepth;
 uniform sampler2D sceneColor;
 uniform sampler2D litSpecular; // a: frames that history may hold, HISTORY_FREE_FRAMES where no light was edited
+uniform sampler2D historyDiffuse; // a: frames that the denoiser holds; both are absent without it
+uniform sampler2D historySpecular;
 uniform sampler2D previousAntiAliased; // filtered linearly
 uniform sampler2D previousPixelMoments;
 layout(rgba16f) writeonly uniform image2D antiAliasedOut;
@@ -26,6 +30,9 @@ const float kMovingFrames = 16.0; // at most where the picture moves: each resam
 const float kMomentFrames = 16.0; // that the deviation over time remembers
 const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
 const float kStillPx = 1.0 / 64.0;
+const float kRounding = 1.0 / 512.0; // of the light: several steps of a half float
+const float kSureClip = 6.0;   // times wider where the denoiser saw no change
+const float kLeastSure = 0.75; // share of the denoiser's frames from which on it counts
 
 // Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
 vec4 historySharp(vec2 uv) {
@@ -46,6 +53,14 @@ vec4 historySharp(vec2 uv) {
     sum += textureLod(previousAntiAliased, vec2(p12.x, p3.y), 0.0) * (w12.x * w3.y);
     weight += (w0.x + w3.x) * w12.y + w12.x * (w0.y + w3.y);
     return max(sum / weight, vec4(0.0));
+}
+
+// 1 where the denoiser's histories are as long as they get.
+float denoiserSure(ivec2 at) {
+    if (textureSize(historyDiffuse, 0) != textureSize(gDepth, 0)) return 0.0;
+    float diffuse = texelFetch(historyDiffuse, at, 0).a / frame.denoising.diffuseFrames;
+    float specular = texelFetch(historySpecular, at, 0).a / frame.denoising.specularFrames;
+    return smoothstep(kLeastSure, 1.0, min(diffuse, specular));
 }
 
 void main() {
@@ -90,9 +105,12 @@ void main() {
         if (still && !edited) moments = vec3(readMomentHistory(texel).xy, texel.z);
         vec3 before = yCoCgFromRgb(history.rgb);
         vec3 hue = abs(before) / max(before.x, 1.0e-6);
-        vec3 extent = frame.denoising.antiAliasClip * max(spread, moments.y * hue);
+        float clip = frame.denoising.antiAliasClip * (still && !edited ? mix(1.0, kSureClip, denoiserSure(at)) : 1.0);
+        // The box holds the present colour as well: what is small and bright stands outside its neighbours' spread.
+        vec3 extent = max(clip * max(spread, moments.y * hue), abs(now - mean));
         // Towards the middle of the box until inside, which keeps the hue better than clamping by component.
-        vec3 off = abs(before - mean) / max(extent, vec3(1.0e-5));
+        // The rounding of what is stored is no change either: without a floor a grey pixel's hue would clip it.
+        vec3 off = abs(before - mean) / max(extent, vec3(kRounding * before.x + 1.0e-5));
         float farthest = max(off.x, max(off.y, off.z));
         vec3 clipped = farthest > 1.0 ? mean + (before - mean) / farthest : before;
         float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));

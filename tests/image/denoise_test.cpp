@@ -204,6 +204,25 @@ TEST(Denoiser, PixelsWithoutASampleKeepOrBorrow) {
     });
 }
 
+// One bright pixel among dark ones stands outside its neighbours' spread in every frame, and is no change.
+TEST(AntiAlias, SmallHighlightsKeepTheirLight) {
+    RenderOptions options = stochastic({"picture=denoised", "denoise=off", "jitter=false"}, 24);
+    options.replaceLit = [&](int) {
+        LitTexels lit = evenLight(0.1f);
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            const bool bright = i % kWidth % 7 == 3 && i / kWidth % 7 == 3;
+            for (std::size_t c = 0; c < 3 && bright; ++c)
+                lit.diffuse[4 * i + c] = 4.0f;
+        }
+        return lit;
+    };
+    renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
+        if (frame < 20) return;
+        EXPECT_NEAR(meanOf(t, "antiAliased"), meanOf(t, "sceneColor"), 0.005 * meanOf(t, "sceneColor"))
+            << "frame " << frame;
+    });
+}
+
 TEST(PictureChoices, DisabledFiltersGiveTheRawFrame) {
     const Scene scene = litStage();
     const Rendered raw = renderScene(scene, stochastic({"picture=raw"}, 4));

@@ -78,6 +78,8 @@ TEST(DirectionalBudget, LampsIndoorsKeepTheirShare) {
     const Scene scene = sunScene(true, 4, 5000.0);
     EXPECT_NEAR(sunShare(scene, {}), 0.5, 0.02) << "the sun is far stronger, and hidden everywhere";
     EXPECT_NEAR(sunShare(scene, {"directionalShare=0.2"}), 0.2, 0.02);
+    // Dim lamps, a hundredth of display white, are still all the light there is.
+    EXPECT_NEAR(sunShare(sunScene(true, 4, 8.0), {"exposureEv100=6"}), 0.5, 0.03) << "dim lamps";
     const RenderOptions options = loopOptions(64, 48);
     Loop loop(scene, options);
     expectSameMean(gather(framesOf(loop)), splitReference(scene, options), "hidden sun");
