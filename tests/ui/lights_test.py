@@ -261,6 +261,8 @@ class Lights(WindowCase):
         self.step("h", hold=[], what="muting")
         self.pick(3, 4)
         self.step("g", what="grouping")
+        for section in ("Colour", "Shaping", "Place", "Light"):  # the group's numbers are below the fold
+            window.click(f"section.{section}")
         self.enter("group.exposureEv", "-1")
         window.key("c", hold=[CTRL])
         self.step("v", what="pasting")
