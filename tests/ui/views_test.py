@@ -96,7 +96,7 @@ class Views(WindowCase):
         self.wait_view("final")
         self.picture("cost")
 
-    def test_4_a_probed_pixel_lists_its_lights_and_selects_one(self):
+    def test_0_a_probed_pixel_lists_its_lights_and_selects_one(self):
         self.window.click("tab.probe")
         # The pipeline of the probe is built at the first question; a click that goes unanswered is given again.
         self.window.key("p")
