@@ -207,29 +207,32 @@ void drawLightRow(Desk& desk, LightListState& state, int index) {
     drawLightIcon(*ImGui::GetWindowDrawList(), def.type,
                   {x + px(desk, 6), space.from.y + 0.5f * space.height}, px(desk, 6), color);
     x += px(desk, 20);
-    const float switches = space.from.x + space.width - 3 * toggle;
-    const bool hasValue = switches - x > px(desk, kValueUnits + 60);
-    const float nameEnd = switches - (hasValue ? px(desk, kValueUnits) : 0.0f);
+    const float right = space.from.x + space.width, switches = right - 3 * toggle;
+    const bool solo = std::binary_search(desk.solo.begin(), desk.solo.end(), row.id);
+    const bool locked = isLocked(desk, row.id);
+    // The value stands left of the switches that are on; under the pointer all switches take its place.
+    const int columnsOn = light.muted ? 3 : (solo ? 2 : (locked ? 1 : 0));
+    const float valueEnd = right - float(columnsOn) * toggle - px(desk, 4);
+    const bool hasValue = valueEnd - x > px(desk, kValueUnits + 60);
+    const float nameEnd = hasValue ? valueEnd - px(desk, kValueUnits) : valueEnd;
     const bool renamed =
         drawName(desk, state, row, name, {x, space.from.y}, nameEnd - x - px(desk, 4), light.muted);
-    if (hasValue) {
+    if (hasValue && (columnsOn == 3 || !space.hot)) {
         const std::string unit(unitLabel(Quantity::Intensity, def.unit));
         const std::string value = formatQuantity(def.intensity, Quantity::Intensity, 4);
-        const float unitWidth = px(desk, 26), top = space.from.y + ImGui::GetStyle().FramePadding.y;
+        const float unitWidth = px(desk, 22), top = space.from.y + ImGui::GetStyle().FramePadding.y;
         ImDrawList& canvas = *ImGui::GetWindowDrawList();
-        canvas.AddText({switches - unitWidth, top}, theme::kDim, unit.c_str());
-        canvas.AddText({switches - unitWidth - px(desk, 4) - ImGui::CalcTextSize(value.c_str()).x, top},
+        canvas.AddText({valueEnd - unitWidth, top}, theme::kDim, unit.c_str());
+        canvas.AddText({valueEnd - unitWidth - px(desk, 4) - ImGui::CalcTextSize(value.c_str()).x, top},
                        light.muted ? theme::kDim : theme::kText, value.c_str());
     }
     const auto at = [&](int i) { return ImVec2{switches + float(i) * toggle, space.from.y}; };
     const std::string id = std::to_string(row.id);
-    const bool solo = std::binary_search(desk.solo.begin(), desk.solo.end(), row.id);
     if (rowSwitch(desk, "mute." + id, light.muted ? theme::kEyeOff : theme::kEye, "Mute (H)", at(0),
                   light.muted, space.hot))
         toggleMute(desk, meant(desk, row.id));
     if (rowSwitch(desk, "solo." + id, theme::kSolo, "Solo (Shift+S)", at(1), solo, space.hot))
         toggleSolo(desk, meant(desk, row.id));
-    const bool locked = isLocked(desk, row.id);
     if (rowSwitch(desk, "lock." + id, locked ? kLock : kUnlock, "Lock: not to be picked or dragged", at(2),
                   locked, space.hot))
         toggleLock(desk, meant(desk, row.id));

@@ -2,11 +2,26 @@
 
 namespace kilolux {
 
+namespace {
+
+// A frame that a probe looks into may be given up for what moves meanwhile, again and again.
+constexpr int kMostTries = 8;
+
+} // namespace
+
 void PixelProbe::ask(RenderThread& thread, glm::ivec2 pixel, ProbeDepth depth) {
     if (asked_) {
         waiting_ = Question{pixel, depth};
         return;
     }
+    tries_ = 0;
+    post(thread, {pixel, depth});
+}
+
+void PixelProbe::post(RenderThread& thread, const Question& question) {
+    ++tries_;
+    question_ = question;
+    const auto [pixel, depth] = question;
     asked_ = std::make_shared<Mailbox>();
     thread.post([box = asked_, pixel, depth](Renderer& renderer) {
         Result<Probe> found = renderer.probe(pixel, depth);
@@ -26,13 +41,18 @@ void PixelProbe::update(RenderThread& thread) {
     }
     if (!found && !alone) return;
     asked_.reset();
+    const auto next = std::exchange(waiting_, std::nullopt);
+    if (!next && !alone && found && !*found && tries_ < kMostTries) {
+        post(thread, question_);
+        return;
+    }
     if (found && *found) {
         answer_ = found->value();
         problem_.clear();
     } else if (found) {
         problem_ = found->error();
     }
-    if (const auto next = std::exchange(waiting_, std::nullopt)) ask(thread, next->pixel, next->depth);
+    if (next) ask(thread, next->pixel, next->depth);
 }
 
 void PixelProbe::clear() {

@@ -35,7 +35,11 @@ class PixelProbe {
         glm::ivec2 pixel{0};
         ProbeDepth depth = ProbeDepth::Surface;
     };
+    void post(RenderThread& thread, const Question& question);
+
     std::shared_ptr<Mailbox> asked_;
+    Question question_; // the one that was asked,
+    int tries_ = 0;     // so often
     std::optional<Question> waiting_;
     std::optional<Probe> answer_;
     std::string problem_;

@@ -228,6 +228,8 @@ void RenderThread::Impl::apply(Requests requests) {
         camera = requests.camera->camera;
         renderer->setCamera(camera, requests.camera->change);
     }
+    // Jobs may render a frame of their own: what has just been taken over is no reason to give that up.
+    interrupt = false;
     for (const Job& job : requests.jobs)
         job(*renderer);
     if (requests.jobs.empty()) return;

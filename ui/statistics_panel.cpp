@@ -39,7 +39,7 @@ void drawPasses(Desk& desk, const FrameStatistics& s) {
     double longest = 1e-6;
     for (const PassTiming& pass : s.passes)
         longest = std::max(longest, pass.medianMs);
-    title(fmt::format("Passes, median of the last frames; click for what it wrote ({})", s.timing).c_str());
+    title("Median times; click for what it wrote");
     for (const PassTiming& pass : s.passes) {
         ImGui::PushID(pass.name.c_str());
         const bool chosen = passOfView(s.view) == pass.name;

@@ -21,7 +21,7 @@ def read(path):
         return file.read()
 
 
-class Lights(WindowCase):
+class LightCase(WindowCase):
     size = (1280, 720)
 
     def open(self, make=light_scenes.every_type, *arguments):
@@ -88,6 +88,8 @@ class Lights(WindowCase):
         self.window.key(key, hold=list(hold))
         self.window.wait(lambda s: s["document"]["version"] != before, what)
 
+
+class Lights(LightCase):
     # --- gizmos
 
     def test_each_axis_of_the_move_gizmo_reaches_the_file(self):
@@ -337,7 +339,7 @@ class Lights(WindowCase):
         self.assertEqual(read(self.path), self.original)
 
 
-class Screenshots(Lights):
+class Screenshots(LightCase):
     """Every state of these panels, to be looked at: lights_test.py PROGRAM Screenshots, with FOLDER and SIZE set."""
 
     def test_pictures(self):
@@ -373,5 +375,5 @@ class Screenshots(Lights):
 
 if __name__ == "__main__":
     if "SIZE" in os.environ:
-        Lights.size = Lights.screenSize = tuple(int(v) for v in os.environ["SIZE"].split("x"))
+        LightCase.size = LightCase.screenSize = tuple(int(v) for v in os.environ["SIZE"].split("x"))
     window_case.main()
