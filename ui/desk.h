@@ -21,6 +21,7 @@ struct FileTasks; // file_tasks.h
 struct LightListState;
 struct PropertiesState;
 struct GizmoState;
+struct CameraMenuState;
 struct ClipboardState;
 struct ViewPanelState;
 struct ProbeState;
@@ -105,6 +106,7 @@ struct Desk {
     std::shared_ptr<PropertiesState> properties;
     std::shared_ptr<GizmoState> gizmo;
     std::shared_ptr<ClipboardState> clipboard;
+    std::shared_ptr<CameraMenuState> cameraMenu;
     std::shared_ptr<ViewPanelState> viewPanel;
     std::shared_ptr<ProbeState> probe;
     std::shared_ptr<ReferenceState> reference;

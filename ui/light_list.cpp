@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
 #include <nlohmann/json.hpp>
 
 namespace kilolux {
@@ -27,17 +28,6 @@ constexpr const char* kSort = "\uf0dc";
 constexpr const char* kFolded = "\uf0da";
 constexpr const char* kUnfolded = "\uf0d7";
 constexpr double kToggleUnits = 20.0, kValueUnits = 76.0;
-
-int onResize(ImGuiInputTextCallbackData* data) {
-    auto* text = static_cast<std::string*>(data->UserData);
-    text->resize(std::size_t(data->BufTextLen));
-    data->Buf = text->data();
-    return 0;
-}
-bool inputText(const char* id, const char* hint, std::string& text, ImGuiInputTextFlags flags) {
-    return ImGui::InputTextWithHint(id, hint, text.data(), text.capacity() + 1,
-                                    flags | ImGuiInputTextFlags_CallbackResize, onResize, &text);
-}
 
 // --- the head of the list
 
@@ -90,7 +80,7 @@ void drawAdd(Desk& desk) {
 void drawHead(Desk& desk, LightListState& state) {
     const float buttons = 3 * (ImGui::GetFrameHeight() + px(desk, 4) + ImGui::GetStyle().ItemSpacing.x);
     ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - buttons, px(desk, 40)));
-    inputText("##search", "Search lights", state.query.search, 0);
+    ImGui::InputTextWithHint("##search", "Search lights", &state.query.search);
     mark(desk, "lights.search");
     ImGui::SameLine();
     drawTypeFilter(desk, state);
@@ -140,8 +130,9 @@ bool drawName(Desk& desk, LightListState& state, const LightRow& row, const std:
     ImGui::SetCursorScreenPos(at);
     ImGui::SetNextItemWidth(widthPx);
     if (state.renameBegins) ImGui::SetKeyboardFocusHere();
-    const bool entered = inputText("##name", "", state.renameText,
-                                   ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputText("##name", &state.renameText,
+                         ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_EnterReturnsTrue);
     mark(desk, "lights.rename");
     const bool active = ImGui::IsItemActive();
     if (state.renameBegins) {

@@ -12,6 +12,7 @@ namespace kilolux {
 
 // --- bars
 void drawTopBar(Desk& desk);
+void drawCameraMenu(Desk& desk); // of the top bar: cameras and bookmarks
 void drawStatusLine(Desk& desk);
 
 // --- left column

@@ -32,6 +32,7 @@ Json documentJson(const Desk& desk) {
     return {{"path", desk.session->path().string()},
             {"version", desk.session->version()},
             {"lights", desk.session->scene().lights.size()},
+            {"bookmarks", desk.session->scene().bookmarks.size()},
             {"unsaved", desk.session->hasUnsavedChanges()},
             {"undo", history.undoName()},
             {"redo", history.redoName()},

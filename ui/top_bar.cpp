@@ -1,4 +1,4 @@
-// The bar above: file, undo, tools, snapping, exposure, panels.
+// The bar above: file, undo, tools, snapping, exposure, views, panels.
 #include "ui/file_tasks.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
@@ -105,6 +105,7 @@ void drawTopBar(Desk& desk) {
     if (width > px(desk, 520)) gap(desk), drawSpace(desk);
     if (!desk.session) return;
     if (width > px(desk, 660)) gap(desk), drawExposure(desk);
+    if (width > px(desk, 720)) gap(desk), drawCameraMenu(desk);
     if (width < px(desk, 820)) return;
     ImGui::SameLine(width - px(desk, 120));
     drawPanels(desk);

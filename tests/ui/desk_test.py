@@ -124,6 +124,39 @@ class Documents(WindowCase):
         state = window.wait(lambda s: s["document"]["unsaved"], "the redo")
         self.assertAlmostEqual(state["exposure"], dragged, places=5)
 
+    def test_views_are_kept_named_looked_through_and_dropped(self):
+        window, path = self.open_scene()
+        state = window.state()
+        first, (x, y, w, h) = state["camera"]["eye"], state["viewport"]
+        window.click("top.views")
+        window.click("view.name")
+        window.settle()
+        window.type("Door")
+        window.click("view.keep")
+        window.wait(lambda s: s["document"]["bookmarks"] == 1, "the bookmark")
+        window.key("Escape")
+        window.settle()
+        window.key("s", hold=[CTRL])
+        window.wait(lambda s: not s["document"]["unsaved"], "the save")
+        kept = gltf_json(path)["scenes"][0]["extras"]["kilolux"]["bookmarks"]
+        self.assertEqual([view["name"] for view in kept], ["Door"])
+
+        window.click((x + w / 2, y + h / 2), button=WHEEL_UP, times=3)
+        window.wait(lambda s: s["camera"]["eye"] != first, "the dolly")
+        window.click("top.views")
+        window.wait_place("view.keep")
+        window.settle()
+        place = next(n for n in window.state()["places"] if n.startswith("view.") and n.endswith(".drop"))
+        window.click(place[:-len(".drop")])
+        window.wait(lambda s: max(abs(a - b) for a, b in zip(s["camera"]["eye"], first)) < 1e-6, "the kept view")
+        window.click("top.views")
+        window.click(place)
+        window.wait(lambda s: s["document"]["bookmarks"] == 0, "the bookmark to go")
+        window.key("Escape")
+        window.settle()
+        window.key("z", hold=[CTRL])
+        window.wait(lambda s: s["document"]["bookmarks"] == 1, "the undo")
+
     def test_killed_it_recovers_what_was_not_saved(self):
         window, path = self.open_scene()
         original = read(path)
