@@ -13,7 +13,9 @@ struct FrameSoFar {
     std::set<std::pair<InputEvent::Kind, int>> flipped; // keys and buttons
     bool pressedAny = false;                            // a key, button or wheel step
     bool pointerActed = false;                          // a button or wheel step: the pointer must not move
-    bool pointerMoved = false;                          // a drag must see this before it ends
+    // A drag must see this before it ends. And an item that others may overlap, as a tab, takes no press in
+    // the first frame in which the pointer is over it.
+    bool pointerMoved = false;
     bool text = false;
     bool commandKey = false; // one that writes nothing, as Backspace
 
@@ -25,8 +27,7 @@ struct FrameSoFar {
         case Kind::Wheel:
             return flipped.empty() || !pointerActed;
         case Kind::Button:
-            return !flipped.contains({event.kind, event.code}) && !pointerActed &&
-                   (event.down || !pointerMoved);
+            return !flipped.contains({event.kind, event.code}) && !pointerActed && !pointerMoved;
         case Kind::Key:
             // A modifier is a state of the frame: it must not reach what came before it.
             if (event.modifier && pressedAny) return false;
