@@ -79,7 +79,7 @@ KX_INLINE float seenWidth(float from, float to, float widthM, float distanceM, f
     return sqrt(cosine > 0.0 ? sine * sine / (0.5 + 0.5 * cosine) : 2.0 - 2.0 * cosine);
 }
 
-// A light this much farther away than it reaches is a small one: every part of it is seen alike, to about 1 %.
+// A light this much farther away than it reaches is a small one: every part of it is seen alike, to about 2 %.
 const float KX_SMALL_LIGHT_RATIO2 = 64.0; // of squares
 
 // A flat light fills two angles, one along each axis, each seen from the distance that is left where the light is

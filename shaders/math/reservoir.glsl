@@ -36,7 +36,7 @@ KX_INLINE void reservoirAdd(INOUT(Reservoir) r, float sumBefore, uint item, floa
     if (!(weight >= KX_LEAST_WEIGHT)) return;
     float at = r.number * (sumBefore + weight);
     bool taken = at < weight || sumBefore <= 0.0;
-    // One division for both cases: they are a fifth of the cost of a candidate.
+    // One division for both cases: two cost a twentieth of a candidate more on CPU drivers.
     float scaled = weight * KX_PRODUCT_SCALE;
     float rest = taken ? r.before * scaled + at * (r.weight * KX_PRODUCT_SCALE) : (at - weight) * scaled;
     float stretched = rest * KX_PRODUCT_SCALE / max(sumBefore * KX_PRODUCT_SCALE * scaled, KX_LEAST_WEIGHT);
