@@ -1,6 +1,7 @@
 // The probe: records its pass over what the last frame left, reads it back, and puts names to numbers.
 #include "renderer/renderer_impl.h"
 
+#include "renderer/document/light_units.h"
 #include "renderer/document/light_words.h"
 #include "renderer/readback.h"
 #include "shaders/shared/features.h"
@@ -14,10 +15,6 @@ namespace kilolux {
 namespace {
 
 using namespace shared;
-
-double luminanceOf(const glm::dvec3& rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
 
 std::string_view listName(const ProbeLight& light) {
     if (!(light.flags & PROBE_CANDIDATE)) return "";

@@ -207,7 +207,8 @@ constexpr std::array kRows = {
                .max = 1.0,
                .unit = "of the light, standard error",
                .help = "the viewport shows the mean where its error is smaller, and begins to at four times "
-                       "that; 0: never"},
+                       "that; also where filtering takes no noise away or is at fault; not in the first 12 "
+                       "frames, in full from 48 on; 0: never"},
     SettingRow{.name = "denoise", .member = &Settings::denoise, .help = "filter light over time and space"},
     SettingRow{.name = "diffuseFrames",
                .member = &Settings::diffuseFrames,
@@ -259,7 +260,8 @@ constexpr std::array kRows = {
                .min = 0.05,
                .max = 10.0,
                .unit = "standard deviations",
-               .help = "how far its history may be off its 3 x 3 neighbourhood"},
+               .help = "how far its history may be off its 3 x 3 neighbourhood; six times that where the "
+                       "denoiser of a still picture saw no change"},
     SettingRow{.name = "renderScale",
                .member = &Settings::renderScale,
                .min = 0.1,

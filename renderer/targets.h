@@ -63,7 +63,8 @@ struct Targets {
     gpu::Image meanColor;    // RGBA32F, exposed: mean of the frames as sampled, and how many
     gpu::Image meanMoments;  // RG32F: mean and variance of their luminance
     gpu::Image antiAliased;  // RGBA16F, exposed, and the frames that it holds
-    gpu::Image pixelMoments; // RGBA16F: mean and deviation over time of what anti-aliasing gets
+    gpu::Image pixelMoments; // RGBA16F: mean and deviation of a still pixel of what anti-aliasing gets, and
+                             // the frames
     gpu::Image previousAntiAliased, previousPixelMoments;
     gpu::Image viewportColor; // RGBA16F, exposed, and the mean's share in it
     gpu::Image viewValues;    // RGBA32F: raw values of a debug view; only with one

@@ -2,6 +2,7 @@
 // them in the viewport. A row selects its light.
 #include "ui/probe_panel.h"
 
+#include "renderer/document/light_units.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -49,7 +50,7 @@ std::string three(const glm::dvec3& v) {
 }
 
 void drawSurface(Desk& desk, const Probe& probe) {
-    const double nit = glm::dot(probe.pictureNit, glm::dvec3(0.2126, 0.7152, 0.0722));
+    const double nit = luminanceOf(probe.pictureNit);
     row(desk, "Pixel", fmt::format("{}, {}", probe.pixel.x, probe.pixel.y));
     row(desk, "Picture", fmt::format("{} nit, {:+.2f} stops", valueText(nit), probe.stops));
     if (!probe.surface) {

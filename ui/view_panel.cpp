@@ -2,6 +2,7 @@
 // it.
 #include "ui/view_panel.h"
 
+#include "renderer/document/light_units.h"
 #include "ui/panels.h"
 #include "ui/probe_panel.h"
 #include "ui/reference_image.h"
@@ -190,7 +191,7 @@ void drawPointer(Desk& desk) {
         const bool number = statistics.legend.map != ColorMap::None && statistics.legend.map != ColorMap::Ids;
         valueRow("View's value", number ? valueText(probe.viewValue.x) : three(probe.viewValue));
     }
-    valueRow("Luminance", valueText(glm::dot(probe.pictureNit, glm::dvec3(0.2126, 0.7152, 0.0722))), "nit");
+    valueRow("Luminance", valueText(luminanceOf(probe.pictureNit)), "nit");
     valueRow("From middle grey", fmt::format("{:+.2f}", probe.stops), "stops");
     if (!probe.surface) return;
     valueRow("Light on it", valueText(probe.illuminanceLux), "lux");

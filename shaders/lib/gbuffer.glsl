@@ -26,6 +26,11 @@ uvec2 packNormals(Surface s) {
     return uvec2(packOct16(s.normalWs), packOct16(s.geoNormalWs));
 }
 
+// Of the second word of a material.
+float unpackRoughness(uint word) {
+    return float(word & 0xffffu) * (1.0 / 65535.0);
+}
+
 Surface unpackSurface(uvec2 normals, uvec2 material) {
     Surface s;
     s.normalWs = unpackOct16(normals.x);
@@ -33,7 +38,7 @@ Surface unpackSurface(uvec2 normals, uvec2 material) {
     vec3 root = vec3(material.x & 2047u, material.x >> 11u & 2047u, material.x >> 22u) *
                 vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 1023.0);
     s.baseColor = root * root;
-    s.roughness = float(material.y & 0xffffu) * (1.0 / 65535.0);
+    s.roughness = unpackRoughness(material.y);
     s.metallic = float(material.y >> 16u) * (1.0 / 65535.0);
     return s;
 }

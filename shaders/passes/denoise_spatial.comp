@@ -4,8 +4,9 @@
 // "Spatiotemporal Variance-Guided Filtering", 2017, section 4.4). Its result is shown and never fed back.
 //
 // Every weight is the same seen from either of its two pixels, and taps pull the pixel towards them rather than
-// being normalized: what one pixel gives away another one gets, so energy stays. The first frames of a history
-// are the exception: more taps, and sums in tone-mapped space, which darkens (Karis, "Tone Mapping", 2013).
+// being normalized: what one pixel gives away another one gets, so energy stays. Histories of up to 4 frames take
+// more taps; those of the very first are the exception to the rest: sums in tone-mapped space, which darkens
+// (Karis, "Tone Mapping", 2013).
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/gbuffer.glsl"
@@ -47,7 +48,7 @@ bool loadPlace(ivec2 at, out Place place) {
     uvec2 normals = texelFetch(gNormals, at, 0).xy;
     place.normalWs = unpackOct16(normals.x);
     place.geoNormalWs = unpackOct16(normals.y);
-    place.roughness = float(texelFetch(gMaterial, at, 0).y & 0xffffu) * (1.0 / 65535.0);
+    place.roughness = unpackRoughness(texelFetch(gMaterial, at, 0).y);
     return true;
 }
 

@@ -225,7 +225,7 @@ void main() {
         float most = litS.a > 0.0 ? litS.a : HISTORY_FREE_FRAMES;
         // Highlights do not move with the surface that shows them, the less the smoother it is.
         vec2 movedPx = r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5;
-        float roughness = float(texelFetch(gMaterial, at, 0).y & 0xffffu) * (1.0 / 65535.0);
+        float roughness = unpackRoughness(texelFetch(gMaterial, at, 0).y);
         float keeps = dot(movedPx, movedPx) > kMovesPx * kMovesPx ? saturate(roughness / kRoughLobe) : 1.0;
         float mostSpecular = mix(frame.denoising.leastFrames, frame.denoising.specularFrames, keeps);
         Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count,

@@ -6,10 +6,8 @@
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/light_grid.glsl"
-#include "lib/receiver.glsl"
-#include "lib/trace.glsl"
+#include "lib/light_ray.glsl"
 #include "math/color.glsl"
-#include "math/hash.glsl"
 
 layout(constant_id = CHOICE_ESTIMATOR) const int kEstimator = ESTIMATOR_SPLIT;
 
@@ -29,15 +27,6 @@ layout(scalar) readonly buffer GridIndices {
 layout(scalar) buffer Counters {
     uint counters[];
 };
-
-// 1 where nothing is between the receiver and the sampled point.
-float visibility(Receiver receiver, LightSample s, float rayEndBiasM, inout uint rays) {
-    if (dot(receiver.surface.geoNormalWs, s.dirWs) <= 0.0) return 0.0;
-    Ray ray = shadowRay(receiver, s, rayEndBiasM);
-    if (ray.tMaxM <= 0.0) return 1.0;
-    ++rays;
-    return occluded(ray) ? 0.0 : 1.0;
-}
 
 void main() {
     uvec2 pixel = dispatchedPixel();
@@ -82,7 +71,9 @@ void main() {
                     usable = s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0;
                 }
                 if (!usable) continue;
-                float visible = visibility(receiver, s, rayEndBiasM, rays);
+                bool traced;
+                float visible = tracePoint(receiver, s, rayEndBiasM, traced) == RAY_VISIBLE ? 1.0 : 0.0;
+                rays += traced ? 1u : 0u;
                 sumVisible += visible;
                 if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) {
                     BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, receiver.point.viewDirWs, receiver.point.noV,

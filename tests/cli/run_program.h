@@ -25,6 +25,14 @@ inline std::string readText(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// An EXR's bytes but for the time of writing, which OpenImageIO puts in.
+inline std::string withoutDate(std::string bytes) {
+    const std::string label("capDate\0string\0", 15);
+    const std::size_t at = bytes.find(label);
+    if (at != std::string::npos) bytes.replace(at + label.size() + 4, 19, 19, '-'); // 4: the text's length
+    return bytes;
+}
+
 // A test with an empty folder of its own, which is also the program's working folder.
 class ProgramTest : public testing::Test {
   protected:

@@ -51,14 +51,6 @@ TEST(Repeat, FramesAreReplicasOfTheirIndex) {
     EXPECT_NE(frames[3], frames[4]);
 }
 
-// An EXR's bytes but for the time of writing, which OpenImageIO puts in.
-std::string withoutDate(std::string bytes) {
-    const std::string label("capDate\0string\0", 15);
-    const std::size_t at = bytes.find(label);
-    if (at != std::string::npos) bytes.replace(at + label.size() + 4, 19, 19, '-'); // 4: the text's length
-    return bytes;
-}
-
 class RepeatByProgram : public ProgramTest {};
 
 TEST_F(RepeatByProgram, VectorWidthsGiveTheSameBytes) {

@@ -32,14 +32,6 @@ TEST(Determinism, SameSeedSameBytes) {
     }
 }
 
-// An EXR's bytes but for the time of writing, which OpenImageIO puts in.
-std::string withoutDate(std::string bytes) {
-    const std::string label("capDate\0string\0", 15);
-    const std::size_t at = bytes.find(label);
-    if (at != std::string::npos) bytes.replace(at + label.size() + 4, 19, 19, '-'); // 4: the text's length
-    return bytes;
-}
-
 class DeterminismByProgram : public ProgramTest {
   protected:
     // Files of a run by name, targets included, with an environment variable set; `device` gets its name.

@@ -25,8 +25,8 @@ Scene floorOverHiddenLights(int count) {
 }
 
 std::uint32_t hiddenEntry(const std::vector<glm::uvec2>& lists, std::size_t tile, std::uint32_t hidden) {
-    for (const ListEntry& entry : entriesOfTile(lists, tile))
-        if (entry.slot < hidden) return entry.slot;
+    for (const std::uint32_t slot : slotsOfTile(lists, tile))
+        if (slot < hidden) return slot;
     return 0xffffffffu;
 }
 

@@ -79,10 +79,9 @@ double meanLuminance(const Picture& picture) {
     return sum / double(pixels);
 }
 
-double relativeDifference(const Picture& a, const Picture& b, const std::vector<bool>& mask) {
+double relativeDifference(const Picture& a, const Picture& b) {
     double apart = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < b.rgb.size() / 3; ++i) {
-        if (!mask.empty() && !mask[i]) continue;
         apart += std::abs(luminanceOfPixel(a, i) - luminanceOfPixel(b, i));
         sum += luminanceOfPixel(b, i);
     }
@@ -105,14 +104,12 @@ Camera movedByPixels(const Camera& camera, double pixelM, glm::dvec2 px) {
     return moved;
 }
 
-std::vector<ListEntry> entriesOfTile(const std::vector<glm::uvec2>& lists, std::size_t tile) {
-    std::vector<ListEntry> entries;
+std::vector<std::uint32_t> slotsOfTile(const std::vector<glm::uvec2>& lists, std::size_t tile) {
+    std::vector<std::uint32_t> slots;
     const std::size_t first = tile * shared::LIST_TEXELS;
-    for (std::uint32_t i = 0; i < lists[first].x; ++i) {
-        const std::uint32_t word = lists[first + 1 + i].x;
-        entries.push_back({word & 0xffffu, word >> 28});
-    }
-    return entries;
+    for (std::uint32_t i = 0; i < lists[first].x; ++i)
+        slots.push_back(lists[first + 1 + i].x & 0xffffu);
+    return slots;
 }
 
 void setOneEntry(std::vector<glm::uvec2>& lists, std::size_t tile, std::uint32_t slot) {

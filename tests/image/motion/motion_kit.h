@@ -34,21 +34,18 @@ std::uint32_t wordAt(const FrameTargets& targets, const std::string& name, std::
                      int wordsPerPixel);
 bool isMissed(const FrameTargets& targets, std::size_t pixel); // SAMPLE_MISSED
 
-// Mean luminance of a picture, or of the pixels for which `in` holds.
+// Mean luminance of a picture.
 double meanLuminance(const Picture& picture);
-// Sum of |a - b| over the sum of b, luminance, pixels in `mask` (empty: all).
-double relativeDifference(const Picture& a, const Picture& b, const std::vector<bool>& mask = {});
+// Sum of |a - b| over the sum of b, luminance.
+double relativeDifference(const Picture& a, const Picture& b);
 
 // Orthographic, looking along `direction`, pixels of `pixelM` metres in pictures `heightPx` high.
 Camera orthographicCamera(const glm::dvec3& from, const glm::dvec3& direction, double pixelM, int heightPx);
 // Moved by whole pixels of such a camera: to the right and down in the picture.
 Camera movedByPixels(const Camera& camera, double pixelM, glm::dvec2 px);
 
-// One entry of a visible list, unpacked by the tests' own arithmetic.
-struct ListEntry {
-    std::uint32_t slot = 0, age = 0;
-};
-std::vector<ListEntry> entriesOfTile(const std::vector<glm::uvec2>& lists, std::size_t tile);
+// The slots on a visible list, unpacked by the tests' own arithmetic.
+std::vector<std::uint32_t> slotsOfTile(const std::vector<glm::uvec2>& lists, std::size_t tile);
 // A list of one entry, seen in the frame before in all quarters, in place of a tile's own.
 void setOneEntry(std::vector<glm::uvec2>& lists, std::size_t tile, std::uint32_t slot);
 

@@ -90,9 +90,9 @@ TEST(RenderScale, ListsAreFoundByUv) {
                 const glm::dvec2 middle =
                     glm::min(glm::dvec2(8 * x + 4, 8 * y + 4), glm::dvec2(now - 1)) + 0.5;
                 const glm::ivec2 from(middle / glm::dvec2(now) * glm::dvec2(before) / 8.0);
-                const std::vector<ListEntry> entries = entriesOfTile(lists, std::size_t(y * tiles.x + x));
-                ASSERT_EQ(entries.size(), 1u) << x << ' ' << y << " at " << scale;
-                EXPECT_EQ(entries[0].slot, std::uint32_t(from.y * tilesBefore.x + from.x))
+                const std::vector<std::uint32_t> slots = slotsOfTile(lists, std::size_t(y * tiles.x + x));
+                ASSERT_EQ(slots.size(), 1u) << x << ' ' << y << " at " << scale;
+                EXPECT_EQ(slots[0], std::uint32_t(from.y * tilesBefore.x + from.x))
                     << x << ' ' << y << " at " << scale;
             }
         }
