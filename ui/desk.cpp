@@ -3,6 +3,7 @@
 
 #include "ui/file_tasks.h"
 #include "ui/light_actions.h"
+#include "ui/reference_image.h"
 
 #include <algorithm>
 #include <utility>
@@ -123,6 +124,9 @@ void forgetLights(Desk& desk) {
     desk.lightList.reset();
     desk.properties.reset();
     desk.gizmo.reset();
+    desk.probe.reset();
+    desk.viewPanel.reset();
+    forgetReference(desk);
 }
 
 void setSolo(Desk& desk, std::vector<std::uint64_t> lights) {

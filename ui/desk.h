@@ -22,11 +22,9 @@ struct LightListState;
 struct PropertiesState;
 struct GizmoState;
 struct CameraMenuState;
-struct ClipboardState;
 struct ViewPanelState;
 struct ProbeState;
 struct ReferenceState;
-struct StatisticsState;
 
 enum class Tool { Select, Move, Rotate, Scale };
 enum class GizmoSpace { World, Local, View };
@@ -42,9 +40,7 @@ struct PanelVisibility {
     bool all = true; // Tab
     bool lights = true;
     bool properties = true;
-    bool statistics = false;
     bool outlines = true; // of lights in the viewport
-    bool gizmos = true;
 };
 
 // What the program says to the user; errors stay until closed, others fade.
@@ -105,12 +101,10 @@ struct Desk {
     std::shared_ptr<LightListState> lightList;
     std::shared_ptr<PropertiesState> properties;
     std::shared_ptr<GizmoState> gizmo;
-    std::shared_ptr<ClipboardState> clipboard;
     std::shared_ptr<CameraMenuState> cameraMenu;
     std::shared_ptr<ViewPanelState> viewPanel;
     std::shared_ptr<ProbeState> probe;
     std::shared_ptr<ReferenceState> reference;
-    std::shared_ptr<StatisticsState> statisticsPanel;
 
     const Scene* scene() const { return session ? &session->scene() : nullptr; }
     bool isSelected(std::uint64_t light) const;

@@ -216,7 +216,9 @@ void takeOpened(Desk& desk) {
         files.question = Question::Recover;
         return;
     }
-    takeSession(desk, std::move(opened.value().session));
+    // The scene that is open could be edited all the while.
+    files.opened = std::move(opened.value().session);
+    afterUnsaved(desk, [](Desk& d) { takeSession(d, std::move(d.files->opened)); });
 }
 
 } // namespace

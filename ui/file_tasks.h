@@ -18,6 +18,7 @@ enum class Question {
     UnsavedChanges, // before `goOn`
     Recover,        // the journal holds changes of a session that did not end
     ChangedOnDisk,  // before saving over it
+    ReplaceFile,    // before saving as another file that is there
 };
 
 struct OpenedScene {
@@ -39,11 +40,13 @@ struct FileTasks {
     // Opened and given up: the import cannot be stopped in the middle, its result is dropped.
     std::vector<std::future<Result<OpenedScene>>> abandoned;
     std::size_t recoverable = 0;
+    std::unique_ptr<EditSession> opened; // waits for an answer about unsaved changes
     bool isOpening() const { return opening.valid(); }
 
     // --- the folder list
     std::filesystem::path folder;
-    std::string typed; // name or path
+    std::string typed;              // name or path
+    std::filesystem::path replaced; // by SaveFileAs, once it is allowed
     struct Entry {
         std::string name;
         bool isFolder = false;

@@ -234,7 +234,7 @@ void drawGizmos(Desk& desk, ImDrawList& canvas) {
     const std::vector<std::uint64_t> lights = unlockedSelection(desk);
     state.hot = GizmoHandle::None;
     if (state.drag && lights.empty()) cancelGizmoDrag(desk); // undone while it was dragged
-    if (!kind || !desk.panels.gizmos || lights.empty()) return;
+    if (!kind || lights.empty()) return;
     const double lengthPx = desk.gizmoSizePx * desk.uiScale;
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 mouse(io.MousePos.x, io.MousePos.y);

@@ -117,7 +117,7 @@ void act(Desk& desk, KeyAction action) {
 void handleLightKeys(Desk& desk) {
     const ImGuiIO& io = ImGui::GetIO();
     if (desk.flying || isPopupOpen()) return; // letters fly; menus take their own
-    const bool dragging = viewportTools(desk).drag.has_value();
+    const bool dragging = viewportTools(desk).drag || !propertiesOf(desk).dragging.empty();
     for (const KeyRow& row : keyRows()) {
         if (row.action == KeyAction::None || actionOf(row.key, io.KeyCtrl, io.KeyShift) != row.action)
             continue;

@@ -34,7 +34,7 @@ void ask(Desk& desk) {
 void keepUp(Desk& desk) {
     ProbeState& panel = state(desk);
     panel.probe.update(*desk.renderThread);
-    if (!panel.pixel || panel.probe.isAsking() || !panel.followsPicture) return;
+    if (!panel.pixel || panel.probe.isAsking()) return;
     const bool due = desk.nowS - panel.askedS > kAskEveryS || desk.shown->settled;
     if (panel.askedFrame != desk.shown->number && due) ask(desk);
 }

@@ -12,7 +12,6 @@ struct ProbeState {
     std::optional<glm::ivec2> pixel; // of the picture; nothing: not chosen yet
     bool picking = false;            // a click in the viewport chooses a pixel
     bool pressed = false;            // it holds the pointer
-    bool followsPicture = true;      // ask again as the picture goes on
     std::uint64_t askedFrame = 0;    // picture that it was asked of last
     double askedS = 0.0;
 };

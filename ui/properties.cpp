@@ -24,6 +24,9 @@ void refresh(Desk& desk, PropertiesState& state) {
     if (sameSelection && state.version == desk.session->version()) return;
     const Scene& scene = desk.session->scene();
     if (!sameSelection) {
+        if (!state.dragging.empty()) endDrag(desk); // a drag is of the lights that it began with
+        state.givenUp = std::exchange(state.dragging, {});
+        state.dragStart = {};
         state.selection = desk.selection;
         state.sharing = Sharing::MakeUnique;
         state.editing.clear();

@@ -206,6 +206,14 @@ void drawReferencePart(Desk& desk) {
     drawLive(desk);
 }
 
+void forgetReference(Desk& desk) {
+    if (!desk.reference) return;
+    if (desk.reference->live) desk.reference->live->stop();
+    desk.reference->wantedKey = 0;
+    desk.reference->comparing = false;
+    desk.reference->report.reset();
+}
+
 void toggleStored(Desk& desk) {
     ReferenceState& ref = state(desk);
     if (ref.stored) ref.mode = ref.mode == Comparing::Stored ? Comparing::Off : Comparing::Stored;

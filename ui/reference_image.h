@@ -44,6 +44,9 @@ std::shared_ptr<const ShownFrame> splitPicture(const ShownFrame& left, const Sho
 // The map of a report in the colours of amounts, 0 to 1.
 std::shared_ptr<const ShownFrame> errorPicture(const ErrorReport& report);
 
+// The live reference begins anew: what it was of is closed. The stored picture stays.
+void forgetReference(Desk& desk);
+
 void toggleStored(Desk& desk); // shows the stored picture, or no longer
 
 // The part of the view panel: store, toggle, split, error.

@@ -56,6 +56,13 @@ struct Requests {
     std::vector<RenderThread::Job> jobs;
     double atMs = 0.0; // of the newest change of what the picture shows
 
+    // What holds whichever scene is open.
+    Requests ofNoScene() const {
+        Requests kept;
+        kept.size = size;
+        kept.limits = limits;
+        return kept;
+    }
     bool any() const {
         return open || close || camera || lights || exposureEv100 || settings || view || size || limits ||
                !jobs.empty();
@@ -300,10 +307,10 @@ void RenderThread::Impl::publish(double beginMs) {
     frame->view = options.view;
     frame->statistics = renderer->statistics();
     frame->settled = settled();
-    frame->finishedMs = steadyMs();
-    frame->frameMs = frame->finishedMs - beginMs;
+    frame->frameMs = steadyMs() - beginMs;
     {
         const std::lock_guard lock(mutex);
+        if (pending.open || pending.close) return; // of a scene that is no longer shown
         // A picture that nobody took answers its request all the same.
         if (finished && frame->requestedMs == 0.0) frame->requestedMs = finished->requestedMs;
         finished = std::move(frame);
@@ -345,18 +352,17 @@ RenderThread::~RenderThread() {
 void RenderThread::open(const Scene& scene, const RenderOptions& options, const Camera& camera,
                         std::uint64_t version) {
     impl_->request([&](Requests& r) {
-        Requests fresh;
-        fresh.open = OpenRequest{scene, options, camera, version};
-        fresh.size = r.size;
-        fresh.limits = r.limits;
-        r = std::move(fresh);
+        r = r.ofNoScene();
+        r.open = OpenRequest{scene, options, camera, version};
+        impl_->finished.reset();
     });
 }
 
 void RenderThread::close() {
-    impl_->request([](Requests& r) {
-        r = Requests{};
+    impl_->request([&](Requests& r) {
+        r = r.ofNoScene();
         r.close = true;
+        impl_->finished.reset();
     });
 }
 

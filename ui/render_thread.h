@@ -23,7 +23,6 @@ struct ShownFrame {
     double renderScale = 1.0;
     double frameMs = 0.0;     // from taking the request to the picture
     double requestedMs = 0.0; // when the newest request in it was made, by the steady clock; 0: nothing new
-    double finishedMs = 0.0;  // by the same clock
     std::uint32_t meanFrames = 0;
     bool settled = false; // nothing more will come until something changes
     std::string view;

@@ -19,7 +19,7 @@ Json rectJson(const ViewportRect& rect) {
 }
 
 const char* questionWord(Question question) {
-    constexpr const char* kWords[] = {"", "open", "saveAs", "unsaved", "recover", "changedOnDisk"};
+    constexpr const char* kWords[] = {"", "open", "saveAs", "unsaved", "recover", "changedOnDisk", "replace"};
     return kWords[int(question)];
 }
 

@@ -55,10 +55,6 @@ glm::dvec3 ViewportCamera::pivotWs() const {
     return eyeWs_ - axes()[2] * pivotM_;
 }
 
-void ViewportCamera::setPivot(const glm::dvec3& pointWs) {
-    pivotM_ = std::max(glm::dot(eyeWs_ - pointWs, axes()[2]), kLeastPivotM);
-}
-
 void ViewportCamera::look(double yawRad, double pitchRad) {
     yawRad_ = std::remainder(yawRad_ + yawRad, glm::two_pi<double>());
     pitchRad_ = std::clamp(pitchRad_ + pitchRad, -kMostPitchRad, kMostPitchRad);

@@ -18,7 +18,6 @@ class ViewportCamera {
     glm::dvec3 eyeWs() const { return eyeWs_; }
     glm::dvec3 pivotWs() const;
     double pivotDistanceM() const { return pivotM_; }
-    void setPivot(const glm::dvec3& pointWs); // its distance; the view stays as it is
 
     // Turns the head by angles in radians: yaw to the right, pitch up; up to straight up and down.
     void look(double yawRad, double pitchRad);

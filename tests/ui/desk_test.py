@@ -199,6 +199,36 @@ class Documents(WindowCase):
         window.wait_picture()
         self.assertEqual(window.quit(), 0, "nothing to ask, nothing to recover")
 
+    def test_saving_as_a_file_that_is_there_asks_and_a_question_given_up_stays_so(self):
+        window, path = self.open_scene()
+        other = os.path.join(self.home, "other.glb")
+        with open(other, "w", encoding="utf-8") as file:
+            file.write("precious")
+        place = window.wait_place("top.exposure")
+        middle = (place[0] + place[2] / 2, place[1] + place[3] / 2)
+        window.drag(middle, (middle[0] + 50, middle[1]))
+        window.wait(lambda s: s["document"]["unsaved"], "the change")
+
+        def save_as():
+            window.key("s", hold=[CTRL, SHIFT])
+            window.wait(lambda s: s["question"] == "saveAs", "the folder list")
+            window.click("dialog.entry.other.glb")
+            window.click("dialog.ok")
+            window.wait(lambda s: s["question"] == "replace", "the question")
+        save_as()
+        window.click("replace.cancel")
+        window.wait(lambda s: s["question"] == "", "the end of the question")
+        self.assertEqual(read(other), b"precious")
+        # Leaving is given up in the middle: the next saving must not leave.
+        window.key("q", hold=[CTRL])
+        window.wait(lambda s: s["question"] == "unsaved", "the question")
+        window.click("unsaved.cancel")
+        save_as()
+        window.click("replace.yes")
+        state = window.wait(lambda s: not s["document"]["unsaved"], "the save")
+        self.assertEqual(state["document"]["path"], other)
+        self.assertNotEqual(read(other), b"precious")
+
     def test_changed_on_disk(self):
         window, path = self.open_scene()
         place = window.wait_place("top.exposure")
@@ -237,7 +267,7 @@ class Sizes(WindowCase):
             state = window.wait(
                 lambda s: s["viewport"][0] + s["viewport"][2] <= width and s["places"] and
                 s["viewport"][1] + s["viewport"][3] <= height and s["viewport"][3] > 0.4 * height and
-                s["picture"]["width"] * s["viewport"][3] - s["picture"]["height"] * s["viewport"][2] <
+                abs(s["picture"]["width"] * s["viewport"][3] - s["picture"]["height"] * s["viewport"][2]) <
                 0.02 * s["picture"]["width"] * s["viewport"][3], f"{width}x{height}")
             self.assertGreater(state["viewport"][2], 150)
 
