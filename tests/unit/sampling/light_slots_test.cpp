@@ -92,6 +92,23 @@ TEST(LightSlots, EditsRaiseTheEpochAndAreMarkedForSomeFrames) {
     EXPECT_EQ(epochOf(slots, 1), 1u);
 }
 
+// However long a drag goes on, only its first frames count as just edited; after a rest the next one begins
+// anew.
+TEST(LightSlots, ADragIsJustEditedInItsFirstFrames) {
+    LightSlots slots;
+    update(slots, Lights().add(1, 1), 0);
+    for (std::uint64_t frame = 10; frame <= 20; ++frame) {
+        update(slots, Lights().add(1, 2.0f + float(frame)), frame);
+        EXPECT_TRUE(hasFlag(slots, 0, LIGHT_FLAG_EDITED)) << frame;
+        EXPECT_EQ(hasFlag(slots, 0, LIGHT_FLAG_JUST_EDITED), frame < 10 + LIGHT_JUST_EDITED_FRAMES) << frame;
+    }
+    const std::uint64_t rested = 20 + LIGHT_EDITED_FRAMES;
+    update(slots, Lights().add(1, 22.0f), rested);
+    EXPECT_FALSE(hasFlag(slots, 0, LIGHT_FLAG_EDITED));
+    update(slots, Lights().add(1, 5.0f), rested + 1);
+    EXPECT_TRUE(hasFlag(slots, 0, LIGHT_FLAG_JUST_EDITED));
+}
+
 TEST(LightSlots, EveryFieldCounts) {
     const Lights plain = Lights().add(1, 1);
     const auto epochAfter = [&](auto change) {
