@@ -139,8 +139,4 @@ Scene loadScene(const std::string& file) {
     return std::move(scene.value());
 }
 
-double luminanceOf(const glm::dvec3& rgb) {
-    return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 } // namespace kilolux::test

@@ -2,6 +2,7 @@
 // words of its own, and holds every picture to what all pictures must be.
 #pragma once
 
+#include "renderer/document/light_units.h" // luminanceOf
 #include "renderer/renderer.h"
 
 #include <functional>
@@ -60,7 +61,5 @@ Rendered renderScene(const Scene& scene, RenderOptions options, const FrameObser
 void expectClean(const FrameTargets& targets);
 
 Scene loadScene(const std::string& file); // content/scenes/<file>
-
-double luminanceOf(const glm::dvec3& rgb);
 
 } // namespace kilolux::test
