@@ -24,8 +24,8 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
                                           .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT});
     }
     gDepth = make("gDepth", VK_FORMAT_R32_SFLOAT);
-    gNormals = make("gNormals", VK_FORMAT_R32G32_UINT);
-    gMaterial = make("gMaterial", VK_FORMAT_R32G32_UINT);
+    gSurface = make("gSurface", VK_FORMAT_R32G32B32A32_UINT);
+    gMaterial = make("gMaterial", VK_FORMAT_R32_UINT);
     gEmissive = make("gEmissive", VK_FORMAT_R16G16B16A16_SFLOAT);
     const std::uint32_t halfWidth = std::max(1u, widthPx / 2), halfHeight = std::max(1u, heightPx / 2);
     pyramid = gpu::Image(device, {.name = "pyramid",
@@ -38,8 +38,7 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
     lightCounts = make("lightCounts", VK_FORMAT_R32_UINT);
     if (needs.history) {
         motion = make("motion", VK_FORMAT_R16G16B16A16_SFLOAT);
-        previousDepth = make("previousDepth", VK_FORMAT_R32_SFLOAT);
-        previousNormals = make("previousNormals", VK_FORMAT_R32G32_UINT);
+        previousSurface = make("previousSurface", VK_FORMAT_R32G32B32A32_UINT);
     }
     const auto makeLayers = [&](const char* name, VkFormat format, std::uint32_t layers,
                                 std::uint32_t divisor) {
@@ -102,8 +101,7 @@ void Targets::makeFiltered(const Make& make, const TargetNeeds& needs) {
 
 void Targets::turnHistory() {
     if (!motion) return;
-    std::swap(gDepth, previousDepth);
-    std::swap(gNormals, previousNormals);
+    std::swap(gSurface, previousSurface);
 }
 
 void Targets::turnFilteredHistory() {
@@ -121,13 +119,12 @@ std::vector<NamedTarget> Targets::all() const {
     KX_TARGET(visibility);
     KX_TARGET(rasterDepth);
     KX_TARGET(gDepth);
-    KX_TARGET(gNormals);
+    KX_TARGET(gSurface);
     KX_TARGET(gMaterial);
     KX_TARGET(gEmissive);
     KX_TARGET(pyramid);
     KX_TARGET(motion);
-    KX_TARGET(previousDepth);
-    KX_TARGET(previousNormals);
+    KX_TARGET(previousSurface);
     KX_TARGET(samplesHalf);
     KX_TARGET(samples);
     KX_TARGET(rayResults);

@@ -35,18 +35,17 @@ struct NamedTarget {
 struct Targets {
     Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heightPx, const TargetNeeds& needs);
 
-    gpu::Image visibility;    // RG32UI: instance, primitive; 0xffffffff twice without a surface
-    gpu::Image rasterDepth;   // D32, reversed; only with the raster producer
-    gpu::Image gDepth;        // R32F: linear depth, metres
-    gpu::Image gNormals;      // RG32UI, see shaders/lib/gbuffer.glsl
-    gpu::Image gMaterial;     // RG32UI
-    gpu::Image gEmissive;     // RGBA16F, exposed
-    gpu::Image pyramid;       // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
-    gpu::Image litDiffuse;    // RGBA32F, exposed, demodulated by the diffuse albedo
-    gpu::Image litSpecular;   // RGBA32F, exposed; of the stochastic method without the environment BRDF
-    gpu::Image motion;        // RGBA16F: see shaders/lib/reprojection.glsl; only with history
-    gpu::Image previousDepth; // gDepth of the frame before
-    gpu::Image previousNormals;
+    gpu::Image visibility;      // RG32UI: instance, primitive; 0xffffffff twice without a surface
+    gpu::Image rasterDepth;     // D32, reversed; only with the raster producer
+    gpu::Image gDepth;          // R32F: linear depth, metres
+    gpu::Image gSurface;        // RGBA32UI, see shaders/lib/gbuffer.glsl
+    gpu::Image gMaterial;       // R8
+    gpu::Image gEmissive;       // RGBA16F, exposed
+    gpu::Image pyramid;         // RG32F, mips: nearest and farthest linear depth of 2 x 2, 4 x 4, ... pixels
+    gpu::Image litDiffuse;      // RGBA32F, exposed, demodulated by the diffuse albedo
+    gpu::Image litSpecular;     // RGBA32F, exposed; of the stochastic method without the environment BRDF
+    gpu::Image motion;          // RGBA16F: see shaders/lib/reprojection.glsl; only with history
+    gpu::Image previousSurface; // gSurface of the frame before
     gpu::Image samples;         // RGBA32UI, a layer per ray: see shaders/shared/sampling.h
     gpu::Image samplesHalf;     // the same at half resolution, a layer per choice
     gpu::Image rayResults;      // R32UI, a layer per ray

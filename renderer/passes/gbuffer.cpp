@@ -12,7 +12,7 @@ ResolveGBufferPass::ResolveGBufferPass(gpu::PassResources& resources)
             joined({{{"Frame"},
                      {"visibility"},
                      {"gDepthOut", Access::Write},
-                     {"gNormalsOut", Access::Write},
+                     {"gSurfaceOut", Access::Write},
                      {"gMaterialOut", Access::Write},
                      {"gEmissiveOut", Access::Write},
                      {"motionOut", Access::Write, gpu::Presence::Optional},
@@ -24,7 +24,7 @@ void ResolveGBufferPass::record(FrameContext& frame) {
     gpu::Bindings bindings = joined({{{"Frame", frame.frameBuffer},
                                       {"visibility", targets.visibility},
                                       {"gDepthOut", targets.gDepth},
-                                      {"gNormalsOut", targets.gNormals},
+                                      {"gSurfaceOut", targets.gSurface},
                                       {"gMaterialOut", targets.gMaterial},
                                       {"gEmissiveOut", targets.gEmissive}},
                                      frame.scene.surfaceBindings()});

@@ -8,8 +8,7 @@ using gpu::Access;
 LightAllPass::LightAllPass(gpu::PassResources& resources, TraceBackEnd tracer)
     : pass_(resources, "light_all",
             joined({{{"Frame"},
-                     {"gDepth"},
-                     {"gNormals"},
+                     {"gSurface"},
                      {"gMaterial"},
                      {"litDiffuseOut", Access::Write},
                      {"litSpecularOut", Access::Write},
@@ -25,8 +24,7 @@ void LightAllPass::record(FrameContext& frame, const gpu::Bindings& world, std::
     const Targets& targets = frame.targets;
     pass_.record(frame.commands, frame.features,
                  joined({{{"Frame", frame.frameBuffer},
-                          {"gDepth", targets.gDepth},
-                          {"gNormals", targets.gNormals},
+                          {"gSurface", targets.gSurface},
                           {"gMaterial", targets.gMaterial},
                           {"litDiffuseOut", targets.litDiffuse},
                           {"litSpecularOut", targets.litSpecular},
@@ -42,7 +40,7 @@ void LightAllPass::record(FrameContext& frame, const gpu::Bindings& world, std::
 CompositePass::CompositePass(gpu::PassResources& resources)
     : pass_(resources, "composite",
             {{"Frame"},
-             {"gNormals"},
+             {"gSurface"},
              {"gMaterial"},
              {"gEmissive"},
              {"litDiffuse"},
@@ -65,7 +63,7 @@ void CompositePass::record(FrameContext& frame) {
     pass_.record(frame.commands, frame.features,
                  joined({both,
                          {{"Frame", frame.frameBuffer},
-                          {"gNormals", targets.gNormals},
+                          {"gSurface", targets.gSurface},
                           {"gMaterial", targets.gMaterial},
                           {"gEmissive", targets.gEmissive},
                           {"litDiffuse", denoised ? targets.denoisedDiffuse : targets.litDiffuse},

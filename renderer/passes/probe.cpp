@@ -24,7 +24,7 @@ ProbePass::ProbePass(gpu::PassResources& resources, TraceBackEnd tracer, std::ui
                      {"DirectionalSlots"},
                      // Only of the stochastic method.
                      {"motion", Access::Read, Presence::Optional},
-                     {"previousDepth", Access::Read, Presence::Optional},
+                     {"previousSurface", Access::Read, Presence::Optional},
                      {"visibleLists", Access::Read, Presence::Optional},
                      {"noiseMask", Access::Read, Presence::Optional},
                      {"samples", Access::Read, Presence::Optional},
@@ -41,7 +41,7 @@ void ProbePass::record(FrameContext& frame, const gpu::Bindings& world, const gp
     gpu::Bindings choice;
     if (lists) {
         choice = {{"motion", targets.motion},
-                  {"previousDepth", targets.previousDepth},
+                  {"previousSurface", targets.previousSurface},
                   {"visibleLists", *lists},
                   {"noiseMask", *frame.noise},
                   {"samples", targets.samplesHalf ? targets.samplesHalf : targets.samples},

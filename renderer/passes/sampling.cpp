@@ -26,7 +26,7 @@ SampleLightsPass::SampleLightsPass(gpu::PassResources& resources, std::uint32_t 
     : pass_(resources, "sample_lights",
             joined({receiverUses(),
                     {{"motion"},
-                     {"previousDepth"},
+                     {"previousSurface"},
                      {"visibleLists"},
                      {"noiseMask"},
                      {"GridCells"},
@@ -43,7 +43,7 @@ void SampleLightsPass::record(FrameContext& frame) {
     pass_.record(frame.commands, frame.features,
                  joined({receiverBindings(frame),
                          {{"motion", targets.motion},
-                          {"previousDepth", targets.previousDepth},
+                          {"previousSurface", targets.previousSurface},
                           {"visibleLists", frame.lists->previous()},
                           {"noiseMask", *frame.noise},
                           {"GridCells", frame.grid.cells()},
@@ -56,13 +56,12 @@ void SampleLightsPass::record(FrameContext& frame) {
 
 UpsampleSamplesPass::UpsampleSamplesPass(gpu::PassResources& resources)
     : pass_(resources, "upsample_samples",
-            {{"Frame"}, {"gDepth"}, {"gNormals"}, {"samplesHalf"}, {"samplesOut", Access::Write}}) {}
+            {{"Frame"}, {"gSurface"}, {"samplesHalf"}, {"samplesOut", Access::Write}}) {}
 
 void UpsampleSamplesPass::record(FrameContext& frame) {
     pass_.record(frame.commands, frame.features,
                  {{"Frame", frame.frameBuffer},
-                  {"gDepth", frame.targets.gDepth},
-                  {"gNormals", frame.targets.gNormals},
+                  {"gSurface", frame.targets.gSurface},
                   {"samplesHalf", frame.targets.samplesHalf},
                   {"samplesOut", frame.targets.samples}},
                  frame.tiles());

@@ -57,13 +57,12 @@ gpu::Bindings joined(std::initializer_list<gpu::Bindings> lists) {
 }
 
 std::vector<gpu::PassUse> receiverUses() {
-    return joined({{{"Frame"}, {"gDepth"}, {"gNormals"}, {"gMaterial"}}, lightUses()});
+    return joined({{{"Frame"}, {"gSurface"}, {"gMaterial"}}, lightUses()});
 }
 
 gpu::Bindings receiverBindings(const FrameContext& frame) {
     return joined({{{"Frame", frame.frameBuffer},
-                    {"gDepth", frame.targets.gDepth},
-                    {"gNormals", frame.targets.gNormals},
+                    {"gSurface", frame.targets.gSurface},
                     {"gMaterial", frame.targets.gMaterial}},
                    frame.scene.lightBindings()});
 }

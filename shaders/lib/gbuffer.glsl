@@ -1,6 +1,7 @@
-// The G-buffer's packing. Images: gDepth (R32F, linear depth in metres, DEPTH_SKY without a surface), gNormals
-// (RG32UI: shading normal, geometric normal, both octahedral 2 x 16), gMaterial (RG32UI: base colour; roughness,
-// metallic, flags), gEmissive (RGBA16F, exposed), visibility (RG32UI: instance, primitive).
+// The G-buffer's packing. Images: gSurface (RGBA32UI: linear depth in metres, DEPTH_SKY without a surface; shading
+// normal, octahedral 2 x 16; geometric normal, octahedral 2 x 14, and the class of roughness; base colour): what filters
+// ask of a neighbour comes in one fetch. gMaterial (R32UI: roughness, metallic share), gDepth (R32F: the depth once
+// more, where only that is read), gEmissive (RGBA16F, exposed), visibility (RG32UI: instance, primitive).
 #ifndef KILOLUX_LIB_GBUFFER_GLSL
 #define KILOLUX_LIB_GBUFFER_GLSL
 #include "../math/pack.glsl"
@@ -13,34 +14,69 @@ struct Surface {
     float metallic;
 };
 
+const float kOct14Half = 8191.0; // steps from 0 to 1: the axes are exact
+const float kClassRoughness = 0.6; // from which on a surface is of the roughest class
+
+vec3 unpackOct14(uint word) {
+    return directionFromOct(vec2(word & 16383u, word >> 14u & 16383u) * (1.0 / kOct14Half) - 1.0);
+}
+
+// The best of the four roundings: off by at most 1.7e-4 rad, where the nearest one is off by 2.5e-4.
+uint packOct14(vec3 dir) {
+    uvec2 least = uvec2((octFromDirection(dir) + 1.0) * kOct14Half);
+    uint best = 0u;
+    float bestOff = 8.0;
+    for (uint i = 0u; i < 4u; ++i) {
+        uvec2 q = min(least + uvec2(i & 1u, i >> 1u), uvec2(2.0 * kOct14Half));
+        uint word = q.x | q.y << 14u;
+        vec3 off = unpackOct14(word) - dir;
+        if (dot(off, off) < bestOff) {
+            best = word;
+            bestOff = dot(off, off);
+        }
+    }
+    return best;
+}
+
 // Base colour by its square root in 11, 11 and 10 bits: finer than 8-bit sRGB everywhere.
-uvec2 packMaterial(Surface s) {
-    vec3 root = sqrt(clamp(s.baseColor, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5;
-    uvec3 q = uvec3(root);
-    uint rough = uint(clamp(s.roughness, 0.0, 1.0) * 65535.0 + 0.5);
-    uint metal = uint(clamp(s.metallic, 0.0, 1.0) * 65535.0 + 0.5);
-    return uvec2(q.x | q.y << 11u | q.z << 22u, rough | metal << 16u);
+uvec4 packSurface(float depthM, Surface s) {
+    uvec3 color = uvec3(sqrt(clamp(s.baseColor, 0.0, 1.0)) * vec3(2047.0, 2047.0, 1023.0) + 0.5);
+    uint roughClass = uint(clamp(s.roughness / kClassRoughness, 0.0, 1.0) * 15.0 + 0.5);
+    return uvec4(floatBitsToUint(depthM), packOct16(s.normalWs), packOct14(s.geoNormalWs) | roughClass << 28u,
+                 color.x | color.y << 11u | color.z << 22u);
 }
 
-uvec2 packNormals(Surface s) {
-    return uvec2(packOct16(s.normalWs), packOct16(s.geoNormalWs));
+uint packMaterial(Surface s) {
+    return packUnorm2x16(vec2(s.roughness, s.metallic));
 }
 
-// Of the second word of a material.
-float unpackRoughness(uint word) {
-    return float(word & 0xffffu) * (1.0 / 65535.0);
+uvec4 noSurface() {
+    return uvec4(floatBitsToUint(DEPTH_SKY), 0u, 0u, 0u);
 }
 
-Surface unpackSurface(uvec2 normals, uvec2 material) {
-    Surface s;
-    s.normalWs = unpackOct16(normals.x);
-    s.geoNormalWs = unpackOct16(normals.y);
-    vec3 root = vec3(material.x & 2047u, material.x >> 11u & 2047u, material.x >> 22u) *
+// Each of a texel of gSurface. Those of noSurface() but its depth are of no use.
+float surfaceDepthM(uvec4 texel) {
+    return uintBitsToFloat(texel.x);
+}
+
+vec3 surfaceNormalWs(uvec4 texel) {
+    return unpackOct16(texel.y);
+}
+
+vec3 surfaceGeoNormalWs(uvec4 texel) {
+    return unpackOct14(texel.z);
+}
+
+// Roughness for filters: in steps of 0.04 and at most kClassRoughness.
+float surfaceRoughnessClass(uvec4 texel) {
+    return float(texel.z >> 28u) * (kClassRoughness / 15.0);
+}
+
+Surface unpackSurface(uvec4 texel, uint material) {
+    vec3 root = vec3(texel.w & 2047u, texel.w >> 11u & 2047u, texel.w >> 22u) *
                 vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 1023.0);
-    s.baseColor = root * root;
-    s.roughness = unpackRoughness(material.y);
-    s.metallic = float(material.y >> 16u) * (1.0 / 65535.0);
-    return s;
+    vec2 rest = unpackUnorm2x16(material);
+    return Surface(surfaceNormalWs(texel), surfaceGeoNormalWs(texel), root * root, rest.x, rest.y);
 }
 
 vec3 diffuseAlbedo(Surface s) {

@@ -14,7 +14,7 @@
 
 layout(constant_id = CHOICE_HALF_SAMPLING) const int kHalfSampling = HALF_OFF;
 
-uniform sampler2D previousDepth;
+uniform usampler2D previousSurface;
 uniform usamplerBuffer visibleLists; // RG32UI, of the previous frame
 layout(scalar) readonly buffer GridCells {
     GridCell gridCells[];
@@ -70,7 +70,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     bool atHalf = kHalfSampling != HALF_OFF;
     uint seed = pixelSeed(pixel, how.noiseFrame, frame.seed);
     Reprojection before = reproject(pixel);
-    float foundM = texelFetch(previousDepth, ivec2(before.uv * vec2(frame.previousSize)), 0).x;
+    float foundM = surfaceDepthM(texelFetch(previousSurface, ivec2(before.uv * vec2(frame.previousSize)), 0));
     float cosView = dot(receiver.surface.geoNormalWs, receiver.point.viewDirWs);
     bool missed = !before.onScreen || !sameDepth(foundM, before.depthM, cosView);
 

@@ -6,8 +6,7 @@
 #include "light_access.glsl"
 #include "ray.glsl"
 
-uniform sampler2D gDepth;
-uniform usampler2D gNormals;
+uniform usampler2D gSurface;
 uniform usampler2D gMaterial;
 
 struct Receiver {
@@ -21,9 +20,10 @@ struct Receiver {
 Receiver loadReceiver(uvec2 pixel) {
     ivec2 at = ivec2(pixel);
     Receiver receiver;
-    receiver.depthM = texelFetch(gDepth, at, 0).x;
+    uvec4 texel = texelFetch(gSurface, at, 0);
+    receiver.depthM = surfaceDepthM(texel);
     receiver.exists = receiver.depthM < DEPTH_SKY;
-    receiver.surface = unpackSurface(texelFetch(gNormals, at, 0).xy, texelFetch(gMaterial, at, 0).xy);
+    receiver.surface = unpackSurface(texel, texelFetch(gMaterial, at, 0).x);
     CameraRay camera = cameraRay(pixel);
     vec3 positionWs = camera.originWs + camera.dir * receiver.depthM;
     float distanceM = receiver.depthM * length(camera.dir);

@@ -9,8 +9,8 @@
 layout(constant_id = CHOICE_DEMODULATED) const bool kDemodulated = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
+uniform usampler2D gSurface;
 uniform usampler2D gMaterial;
-uniform usampler2D gNormals;
 uniform sampler2D gEmissive;
 uniform sampler2D litDiffuse;
 uniform sampler2D litSpecular;
@@ -23,7 +23,7 @@ void main() {
     uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
-    Surface surface = unpackSurface(texelFetch(gNormals, at, 0).xy, texelFetch(gMaterial, at, 0).xy);
+    Surface surface = unpackSurface(texelFetch(gSurface, at, 0), texelFetch(gMaterial, at, 0).x);
     vec3 environment = kDemodulated ? environmentBrdfAt(surface, pixel) : vec3(1.0);
     vec3 emissive = texelFetch(gEmissive, at, 0).rgb, albedo = diffuseAlbedo(surface);
     vec3 color = emissive + albedo * texelFetch(litDiffuse, at, 0).rgb + environment * texelFetch(litSpecular, at, 0).rgb;

@@ -20,8 +20,7 @@ layout(push_constant, scalar) uniform Push {
     ViewConstants scale;
 };
 uniform usampler2D visibility;
-uniform sampler2D gDepth;
-uniform usampler2D gNormals;
+uniform usampler2D gSurface;
 uniform usampler2D gMaterial;
 uniform sampler2D gEmissive;
 uniform sampler2D litDiffuse;
@@ -168,12 +167,13 @@ void main() {
     if (!isInOutput(shownPixel)) return;
     uvec2 pixel = min(uvec2(renderedFromOutput(shownPixel)), frame.size - 1u);
     ivec2 at = ivec2(pixel);
-    float depthM = texelFetch(gDepth, at, 0).x;
+    uvec4 surface = texelFetch(gSurface, at, 0);
+    float depthM = surfaceDepthM(surface);
     uvec2 ids = texelFetch(visibility, at, 0).xy;
     uint counts = texelFetch(lightCounts, at, 0).x;
     float inRange = float(counts & 0xffffu), seen = float(counts >> 16u);
-    Surface s = unpackSurface(texelFetch(gNormals, at, 0).xy, texelFetch(gMaterial, at, 0).xy);
-    vec2 range = textureLod(pyramid, (vec2(pixel) + 0.5) / vec2(textureSize(gDepth, 0)), 2.0).xy;
+    Surface s = unpackSurface(surface, texelFetch(gMaterial, at, 0).x);
+    vec2 range = textureLod(pyramid, (vec2(pixel) + 0.5) / vec2(textureSize(gSurface, 0)), 2.0).xy;
 
     vec3 value = vec3(0.0), shown = vec3(0.0);
     if (kView == VIEW_DIFFUSE || kView == VIEW_SPECULAR || kView == VIEW_EMISSIVE) {

@@ -13,9 +13,7 @@
 #include "lib/filtered_light.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D gDepth;
-uniform usampler2D gNormals;
-uniform usampler2D gMaterial;
+uniform usampler2D gSurface;
 uniform sampler2D historyDiffuse;
 uniform sampler2D historySpecular;
 uniform sampler2D historyMoments;
@@ -41,14 +39,14 @@ struct Place {
 };
 
 bool loadPlace(ivec2 at, out Place place) {
-    place.depthM = texelFetch(gDepth, at, 0).x;
+    uvec4 texel = texelFetch(gSurface, at, 0);
+    place.depthM = surfaceDepthM(texel);
     if (place.depthM >= DEPTH_SKY) return false;
     CameraRay camera = cameraRay(uvec2(at));
     place.positionWs = camera.originWs + camera.dir * place.depthM;
-    uvec2 normals = texelFetch(gNormals, at, 0).xy;
-    place.normalWs = unpackOct16(normals.x);
-    place.geoNormalWs = unpackOct16(normals.y);
-    place.roughness = unpackRoughness(texelFetch(gMaterial, at, 0).y);
+    place.normalWs = surfaceNormalWs(texel);
+    place.geoNormalWs = surfaceGeoNormalWs(texel);
+    place.roughness = surfaceRoughnessClass(texel);
     return true;
 }
 

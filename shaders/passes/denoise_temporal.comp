@@ -17,13 +17,10 @@
 layout(constant_id = CHOICE_SPARSE_NEIGHBOURS) const bool kSparseNeighbours = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D gDepth;
-uniform usampler2D gNormals;
-uniform usampler2D gMaterial;
+uniform usampler2D gSurface;
 uniform sampler2D litDiffuse;
 uniform sampler2D litSpecular;
-uniform sampler2D previousDepth;
-uniform usampler2D previousNormals;
+uniform usampler2D previousSurface;
 uniform sampler2D previousDiffuse;
 uniform sampler2D previousSpecular;
 uniform sampler2D previousMoments;
@@ -52,8 +49,9 @@ struct History {
 
 void addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return;
-    if (!sameDepth(texelFetch(previousDepth, at, 0).x, r.depthM, cosView)) return;
-    if (dot(unpackOct16(texelFetch(previousNormals, at, 0).y), geoNormalWs) < kSameNormal) return;
+    uvec4 there = texelFetch(previousSurface, at, 0);
+    if (!sameDepth(surfaceDepthM(there), r.depthM, cosView)) return;
+    if (dot(surfaceGeoNormalWs(there), geoNormalWs) < kSameNormal) return;
     h.diffuse += weight * readHistory(texelFetch(previousDiffuse, at, 0));
     h.specular += weight * readHistory(texelFetch(previousSpecular, at, 0));
     h.moments += weight * readMomentHistory(texelFetch(previousMoments, at, 0));
@@ -212,10 +210,10 @@ void main() {
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
     vec4 diffuse = vec4(0.0), specular = vec4(0.0), moments = vec4(0.0), trace = vec4(0.0);
-    float depthM = texelFetch(gDepth, at, 0).x;
-    if (depthM < DEPTH_SKY) {
+    uvec4 surface = texelFetch(gSurface, at, 0);
+    if (surfaceDepthM(surface) < DEPTH_SKY) {
         Reprojection r = reproject(pixel);
-        vec3 geoNormalWs = unpackOct16(texelFetch(gNormals, at, 0).y);
+        vec3 geoNormalWs = surfaceGeoNormalWs(surface);
         float cosView = abs(dot(geoNormalWs, normalize(cameraRay(pixel).dir)));
         History h = fetchHistory(r, geoNormalWs, cosView);
         ivec2 before = ivec2(floor(r.uv * vec2(frame.previousSize)));
@@ -225,7 +223,7 @@ void main() {
         float most = litS.a > 0.0 ? litS.a : HISTORY_FREE_FRAMES;
         // Highlights do not move with the surface that shows them, the less the smoother it is.
         vec2 movedPx = r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5;
-        float roughness = unpackRoughness(texelFetch(gMaterial, at, 0).y);
+        float roughness = surfaceRoughnessClass(surface);
         float keeps = dot(movedPx, movedPx) > kMovesPx * kMovesPx ? saturate(roughness / kRoughLobe) : 1.0;
         float mostSpecular = mix(frame.denoising.leastFrames, frame.denoising.specularFrames, keeps);
         Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count,

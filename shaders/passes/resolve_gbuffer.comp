@@ -9,8 +9,8 @@ layout(constant_id = FEATURE_MOVING_INSTANCES) const bool kMovingInstances = tru
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform usampler2D visibility;
 layout(r32f) writeonly uniform image2D gDepthOut;
-layout(rg32ui) writeonly uniform uimage2D gNormalsOut;
-layout(rg32ui) writeonly uniform uimage2D gMaterialOut;
+layout(rgba32ui) writeonly uniform uimage2D gSurfaceOut;
+layout(r32ui) writeonly uniform uimage2D gMaterialOut;
 layout(rgba16f) writeonly uniform image2D gEmissiveOut;
 
 layout(rgba16f) writeonly uniform image2D motionOut;
@@ -43,21 +43,22 @@ void main() {
     ivec2 at = ivec2(pixel);
     uvec2 seen = texelFetch(visibility, at, 0).xy;
     float depthM = DEPTH_SKY;
-    uvec2 normals = uvec2(0u), material = uvec2(0u);
+    uint material = 0u;
+    uvec4 surface = noSurface();
     vec3 emissive = vec3(0.0), moved = vec3(0.0);
     if (seen.x != 0xffffffffu) {
         CameraRay camera = cameraRay(pixel);
         SurfaceHit hit = evaluateSurface(seen.x, seen.y, camera.originWs, camera.dir, -normalize(camera.dir),
                                          frame.pixelAngleRad);
         depthM = max(dot(hit.positionWs - camera.originWs, camera.dir) / dot(camera.dir, camera.dir), frame.zNearM);
-        normals = packNormals(hit.surface);
+        surface = packSurface(depthM, hit.surface);
         material = packMaterial(hit.surface);
         moved = motionOf(seen.x, hit.positionWs, hit.positionLs);
         emissive = min(hit.emissiveNit * frame.exposure, vec3(kHalfMax));
     }
     imageStore(gDepthOut, at, vec4(depthM));
-    imageStore(gNormalsOut, at, uvec4(normals, 0u, 0u));
-    imageStore(gMaterialOut, at, uvec4(material, 0u, 0u));
+    imageStore(gSurfaceOut, at, surface);
+    imageStore(gMaterialOut, at, uvec4(material));
     imageStore(gEmissiveOut, at, vec4(emissive, 1.0));
     // Methods without history have no such image: a dummy of one texel stands in.
     if (all(lessThan(at, imageSize(motionOut))))

@@ -12,16 +12,16 @@
 layout(constant_id = CHOICE_HALF_SAMPLING) const int kHalfSampling = HALF_CHECKERBOARD;
 
 layout(local_size_x = 8, local_size_y = 8) in;
-uniform sampler2D gDepth;
-uniform usampler2D gNormals;
+uniform usampler2D gSurface;
 uniform usampler2DArray samplesHalf;
 layout(rgba32ui) writeonly uniform uimage2DArray samplesOut;
 
 // How well the surface at a half-resolution pixel's own place stands for the one at `pixel`: 0 where it does not.
 float likeness(uvec2 other, float depthM, vec3 normalWs) {
-    float otherM = texelFetch(gDepth, ivec2(other), 0).x;
+    uvec4 surface = texelFetch(gSurface, ivec2(other), 0);
+    float otherM = surfaceDepthM(surface);
     if (otherM >= DEPTH_SKY) return 0.0;
-    vec3 otherWs = unpackOct16(texelFetch(gNormals, ivec2(other), 0).x);
+    vec3 otherWs = surfaceNormalWs(surface);
     float apart = abs(otherM - depthM) / depthM;
     float byDepth = exp2(-apart * 50.0);
     float byNormal = pow(max(dot(normalWs, otherWs), 0.0), 8.0);
@@ -33,7 +33,8 @@ void main() {
     uvec2 pixel = dispatchedPixel();
     if (!isInPicture(pixel)) return;
     SamplingConstants how = frame.sampling;
-    float depthM = texelFetch(gDepth, ivec2(pixel), 0).x;
+    uvec4 surface = texelFetch(gSurface, ivec2(pixel), 0);
+    float depthM = surfaceDepthM(surface);
     bool sampled = depthM < DEPTH_SKY && isSampledPixel(pixel, how.pixelsPerRay, how.noiseFrame);
     uvec2 halfSize = (frame.size + 1u) / 2u;
     ivec2 corner = ivec2(pixel >> 1u) - 1 + ivec2(pixel & 1u);
@@ -41,7 +42,7 @@ void main() {
     uvec2 taken = min(pixel >> 1u, halfSize - 1u);
     uint flags = SAMPLE_RECONSTRUCTED;
     if (sampled) {
-        vec3 normalWs = unpackOct16(texelFetch(gNormals, ivec2(pixel), 0).x);
+        vec3 normalWs = surfaceNormalWs(surface);
         float sum = 0.0, number = whiteNoise1(seed, 64u);
         for (int i = 0; i < 4; ++i) {
             ivec2 at = corner + ivec2(i & 1, i >> 1);

@@ -64,7 +64,7 @@ Difference compareProducers(const Scene& scene, RenderOptions options) {
             }
             continue;
         }
-        for (const char* target : {"gDepth", "gNormals", "gMaterial", "gEmissive"}) {
+        for (const char* target : {"gDepth", "gSurface", "gMaterial", "gEmissive"}) {
             const std::vector<std::byte>& x = raster.targets.named(target).texels;
             const std::vector<std::byte>& y = compute.targets.named(target).texels;
             const std::size_t bytes = x.size() / raster.targets.pixels();

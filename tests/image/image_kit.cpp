@@ -17,11 +17,8 @@ constexpr float kSkyDepth = 3.0e38f;
 
 // Octahedral map of Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit
 // Vectors".
-glm::dvec3 directionFromWord(std::uint32_t word) {
-    const auto snorm = [](std::uint32_t half) {
-        return std::max(double(std::int16_t(std::uint16_t(half))) / 32767.0, -1.0);
-    };
-    double x = snorm(word & 0xffffu), y = snorm(word >> 16);
+glm::dvec3 directionFromSquare(glm::dvec2 at) {
+    double x = at.x, y = at.y;
     const double z = 1.0 - std::abs(x) - std::abs(y);
     if (z < 0.0) {
         const double foldedX = (1.0 - std::abs(y)) * (x < 0.0 ? -1.0 : 1.0);
@@ -29,6 +26,13 @@ glm::dvec3 directionFromWord(std::uint32_t word) {
         x = foldedX;
     }
     return glm::normalize(glm::dvec3(x, y, z));
+}
+
+glm::dvec3 directionFromWord(std::uint32_t word) {
+    const auto snorm = [](std::uint32_t half) {
+        return std::max(double(std::int16_t(std::uint16_t(half))) / 32767.0, -1.0);
+    };
+    return directionFromSquare({snorm(word & 0xffffu), snorm(word >> 16)});
 }
 
 } // namespace
@@ -70,12 +74,14 @@ PixelSurface FrameTargets::surface(std::size_t pixel) const {
     s.depthM = depthM;
     s.instance = word<std::uint32_t>("visibility", 2 * pixel);
     s.primitive = word<std::uint32_t>("visibility", 2 * pixel + 1);
-    s.normalWs = directionFromWord(word<std::uint32_t>("gNormals", 2 * pixel));
-    s.geoNormalWs = directionFromWord(word<std::uint32_t>("gNormals", 2 * pixel + 1));
-    const std::uint32_t color = word<std::uint32_t>("gMaterial", 2 * pixel);
-    const std::uint32_t rest = word<std::uint32_t>("gMaterial", 2 * pixel + 1);
+    EXPECT_EQ(word<float>("gSurface", 4 * pixel), depthM);
+    s.normalWs = directionFromWord(word<std::uint32_t>("gSurface", 4 * pixel + 1));
+    const std::uint32_t geo = word<std::uint32_t>("gSurface", 4 * pixel + 2);
+    s.geoNormalWs = directionFromSquare(glm::dvec2(geo & 16383u, geo >> 14 & 16383u) / 8191.0 - 1.0);
+    const std::uint32_t color = word<std::uint32_t>("gSurface", 4 * pixel + 3);
     const glm::dvec3 root((color & 2047u) / 2047.0, (color >> 11 & 2047u) / 2047.0, (color >> 22) / 1023.0);
     s.baseColor = root * root;
+    const std::uint32_t rest = word<std::uint32_t>("gMaterial", pixel);
     s.roughness = (rest & 0xffffu) / 65535.0;
     s.metallic = (rest >> 16) / 65535.0;
     return s;
@@ -115,7 +121,7 @@ Rendered renderScene(const Scene& scene, RenderOptions options, const FrameObser
 
 void expectClean(const FrameTargets& targets) {
     for (const auto& [name, image] : targets.all()) {
-        const bool packed = name == "gNormals" || name == "gMaterial" || name == "visibility";
+        const bool packed = name == "gSurface" || name == "gMaterial" || name == "visibility";
         const bool isSigned = name == "viewValues"; // normals
         int bad = 0;
         float first = 0.0f;

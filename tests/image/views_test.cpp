@@ -83,7 +83,7 @@ TEST_F(Dump, WritesEveryTarget) {
                                    "depth", "--set", "gbuffer=raster", "--dump", "dump"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     for (const char* target :
-         {"visibility", "rasterDepth", "gDepth", "gNormals", "gMaterial", "gEmissive", "pyramid",
+         {"visibility", "rasterDepth", "gDepth", "gSurface", "gMaterial", "gEmissive", "pyramid",
           "litDiffuse", "litSpecular", "lightCounts", "sceneColor", "meanColor", "viewValues", "display"}) {
         EXPECT_TRUE(std::filesystem::exists(folder_ / "dump" / (std::string(target) + ".exr"))) << target;
     }
@@ -108,7 +108,7 @@ TEST(Features, AllOnGivesTheSamePicture) {
             const Rendered all = renderScene(scene, options);
             EXPECT_LT(exact.statistics.featuresOn.size(), std::size_t(shared::FEATURE_COUNT));
             EXPECT_EQ(all.statistics.featuresOn.size(), std::size_t(shared::FEATURE_COUNT));
-            EXPECT_EQ(exact.targets.named("gNormals").texels, all.targets.named("gNormals").texels) << name;
+            EXPECT_EQ(exact.targets.named("gSurface").texels, all.targets.named("gSurface").texels) << name;
             int different = 0;
             for (std::size_t i = 0; i < exact.targets.pixels(); ++i) {
                 for (const char* target : {"litDiffuse", "litSpecular"}) {

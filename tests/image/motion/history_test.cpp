@@ -4,6 +4,8 @@
 
 #include "tests/unit/accel/scene_kit.h"
 
+#include <bit>
+
 namespace kilolux::test {
 namespace {
 
@@ -165,8 +167,8 @@ TEST(History, DisoccludedSurfacesBeginAnew) {
             bool similar = false;
             for (int k = 0; k < 9; ++k) {
                 const std::size_t from = std::size_t((y + k / 3 - 1) * 64 + fromX + k % 3 - 1);
-                similar =
-                    similar || std::abs(valueAt(targets, "previousDepth", from, 0) / expectedM - 1.0) < 0.3;
+                const float foundM = std::bit_cast<float>(wordAt(targets, "previousSurface", from, 0, 4));
+                similar = similar || std::abs(foundM / expectedM - 1.0) < 0.3;
             }
             const float frames = valueAt(targets, "historyDiffuse", i, 3);
             if (similar) {

@@ -113,7 +113,7 @@ TEST(RenderScale, WithoutHistoryTheSamePicture) {
     const FrameTargets a = scaled.frame();
     never.frames(2);
     const FrameTargets b = never.frame();
-    for (const char* name : {"visibility", "gDepth", "gNormals", "gMaterial", "gEmissive", "pyramid",
+    for (const char* name : {"visibility", "gDepth", "gSurface", "gMaterial", "gEmissive", "pyramid",
                              "litDiffuse", "litSpecular", "sceneColor"})
         EXPECT_TRUE(a.named(name).texels == b.named(name).texels) << name;
     FrameRig other(scene, options);
@@ -179,7 +179,7 @@ TEST_P(CropOfALargerPicture, IsEqualWhereTheDesignSaysSo) {
     glm::ivec2 equalSecond = (part / 8 - 1) * 8 + 4;
     if (GetParam().lightGrid) equalSecond = glm::min(equalSecond, pixelsOfEqualCells(part));
     ASSERT_GT(equalSecond.x * equalSecond.y, 900);
-    for (const char* name : {"gDepth", "gNormals", "samples", "rayResults", "litDiffuse", "litSpecular"}) {
+    for (const char* name : {"gDepth", "gSurface", "samples", "rayResults", "litDiffuse", "litSpecular"}) {
         for (int frame = 0; frame < 2; ++frame) {
             const std::vector<std::byte>&a = large[std::size_t(frame)].named(name).texels,
                   &b = small[std::size_t(frame)].named(name).texels;
