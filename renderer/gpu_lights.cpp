@@ -48,11 +48,24 @@ glm::vec2 sizeOf(const LightDef& def) {
 }
 
 glm::vec2 shapingOf(const LightDef& def) {
-    if (def.type == LightType::Rect) return {float(def.barnDoorAngleRad), float(def.barnDoorLengthM)};
     if (def.type != LightType::Spot) return {0.0f, 0.0f};
     const double outer = std::cos(def.outerConeRad);
     const double scale = 1.0 / std::max(0.001, std::cos(def.innerConeRad) - outer);
     return {float(scale), float(-outer * scale)};
+}
+
+// What the light has beside cone and range; nothing for most.
+std::optional<shared::LightShaping> makeShaping(const LightDef& def) {
+    shared::LightShaping shaping{};
+    if (def.type == LightType::Rect && def.barnDoorLengthM > 0.0) {
+        const double angle = std::clamp(def.barnDoorAngleRad, 0.0, glm::half_pi<double>());
+        shaping.doorReachM = glm::vec4(float(def.barnDoorLengthM * std::sin(angle)));
+        // A flap in the light's own plane hides nothing.
+        const double depthM = def.barnDoorLengthM * std::cos(angle);
+        shaping.doorDepthM = glm::vec4(depthM > 1e-6 * def.barnDoorLengthM ? float(depthM) : 0.0f);
+    }
+    if (shaping.doorDepthM == glm::vec4(0.0f)) return {};
+    return shaping;
 }
 
 // Half of the source's largest extent, for distances that count from its surface.
@@ -221,6 +234,12 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
         result.hot.push_back(makeHot(def, light, world, anchor, rangeM));
         result.hot.back().intensity *= glm::vec3(groupFactor(scene, light));
+        if (const std::optional<shared::LightShaping> shaping = makeShaping(def);
+            shaping && result.tables.shapings.size() < shared::LIGHT_MAX_SHAPINGS) {
+            result.tables.shapings.push_back(*shaping);
+            result.hot.back().typeFlags |= std::uint32_t(result.tables.shapings.size())
+                                           << shared::LIGHT_SHAPING_SHIFT;
+        }
         shared::LightCold cold{};
         cold.rayEndBiasM = float(def.rayEndBiasM);
         cold.node = std::uint32_t(slot);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/document/scene.h"
+#include "renderer/lights_cpp/light_tables.h"
 #include "shaders/shared/gpu_light.h"
 
 #include <vector>
@@ -29,6 +30,7 @@ double deriveExposureEv100(const Scene& scene);
 struct GpuLights {
     std::vector<shared::LightHot> hot; // one per slot: Scene::lights in order
     std::vector<shared::LightCold> cold;
+    LightTables tables; // whose shapings some of the hot records point to
     int derivedRanges = 0;
 };
 GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100);

@@ -262,6 +262,9 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
     }
     lightsHot_.upload(hot);
     lightsCold_ = storageBuffer(device_, "lightsCold", slots_.cold(), "lights");
+    lightShapings_ = slots_.shapings().empty()
+                         ? gpu::Buffer()
+                         : storageBuffer(device_, "lightShapings", slots_.shapings(), "lights");
     directionalSlots_ = storageBuffer(device_, "directionalSlots", directional, "lights");
 }
 
@@ -321,6 +324,9 @@ void GpuScene::decideLightFeatures() {
                 return !(hot.typeFlags & LIGHT_FLAG_DEAD) && (hot.typeFlags & LIGHT_TYPE_MASK) == type;
             });
     }
+    features_[FEATURE_BARN_DOORS] =
+        std::any_of(slots_.shapings().begin(), slots_.shapings().end(),
+                    [](const LightShaping& shaping) { return shaping.doorDepthM != glm::vec4(0.0f); });
     const bool fits = slots_.hot().size() <= LIGHT_UNIFORM_SLOTS &&
                       device_.limits().maxUniformBufferRange >= LIGHT_UNIFORM_SLOTS * sizeof(LightHot);
     features_[CHOICE_LIGHTS_IN_UNIFORM] = fits;
@@ -360,6 +366,7 @@ gpu::Bindings GpuScene::lightBindings() const {
                            {"LightsCold", lightsCold_},
                            {"ltcParameters", ltcParameters_, gpu::SamplerKind::LinearClamp},
                            {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp}};
+    if (lightShapings_) bindings.emplace_back("LightShapings", lightShapings_);
     if (features_.at(CHOICE_LIGHTS_IN_UNIFORM)) bindings.emplace_back("LightsHot", lightsHot_);
     return bindings;
 }

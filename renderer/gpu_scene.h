@@ -94,7 +94,7 @@ class GpuScene {
     std::size_t triangles_ = 0;
     gpu::Buffer vertexBuffer_, indexBuffer_, uv1Buffer_, instanceBuffer_, materialBuffer_;
     std::array<gpu::Image, shared::TEXTURE_CLASSES> textures_;
-    gpu::Buffer lightsHot_, lightsCold_, directionalSlots_, previousInstanceBuffer_;
+    gpu::Buffer lightsHot_, lightsCold_, lightShapings_, directionalSlots_, previousInstanceBuffer_;
     std::uint32_t directionalCount_ = 0;
     gpu::Image ltcParameters_, ltcScales_;
 };

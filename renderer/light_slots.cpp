@@ -35,6 +35,21 @@ std::uint32_t LightSlots::take(std::uint64_t id, std::uint64_t frame) {
     return slot;
 }
 
+// Whether the slot's shaping is another one than before.
+bool LightSlots::takeShaping(std::uint32_t slot, const GpuLights& lights, std::uint32_t typeFlags) {
+    const std::uint32_t place = typeFlags >> LIGHT_SHAPING_SHIFT;
+    const auto before = shapingOfSlot_.find(slot);
+    if (place == 0) {
+        if (before == shapingOfSlot_.end()) return false;
+        shapingOfSlot_.erase(before);
+        return true;
+    }
+    const LightShaping& now = lights.tables.shapings[place - 1];
+    const bool same = before != shapingOfSlot_.end() && sameBytes(before->second, now);
+    shapingOfSlot_[slot] = now;
+    return !same;
+}
+
 void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame) {
     changed_ = edited_ = false;
     const auto isFresh = [&](const Slot& slot) {
@@ -55,6 +70,7 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
         slots_[i].diedFrame = frame;
         plain_[i] = LightHot{};
         plain_[i].typeFlags = LIGHT_FLAG_DEAD;
+        shapingOfSlot_.erase(i);
         markEdited(slots_[i]);
     }
     for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -63,16 +79,26 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
         const std::uint32_t slot = isNew ? take(ids[i], frame) : found->second;
         LightCold cold = lights.cold[i];
         cold.epoch = cold_[slot].epoch;
-        if (isNew || !sameBytes(plain_[slot], lights.hot[i]) || cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
+        LightHot plain = lights.hot[i];
+        const bool reshaped = takeShaping(slot, lights, plain.typeFlags);
+        plain.typeFlags &= (1u << LIGHT_SHAPING_SHIFT) - 1u; // the place says nothing about the light
+        changed_ = changed_ || reshaped;
+        if (isNew || reshaped || !sameBytes(plain_[slot], plain) ||
+            cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
             markEdited(slots_[slot]);
         }
-        plain_[slot] = lights.hot[i];
+        plain_[slot] = plain;
         cold.epoch = slots_[slot].epoch;
         changed_ = changed_ || !sameBytes(cold, cold_[slot]);
         cold_[slot] = cold;
     }
+    shapings_.clear();
     for (std::uint32_t i = 0; i < slots_.size(); ++i) {
         LightHot hot = plain_[i];
+        if (const auto shaping = shapingOfSlot_.find(i); shaping != shapingOfSlot_.end()) {
+            shapings_.push_back(shaping->second);
+            hot.typeFlags |= std::uint32_t(shapings_.size()) << LIGHT_SHAPING_SHIFT;
+        }
         if (isFresh(slots_[i])) {
             const bool just = frame < slots_[i].firstEditedFrame + LIGHT_JUST_EDITED_FRAMES;
             hot.typeFlags |= LIGHT_FLAG_EDITED | (just ? LIGHT_FLAG_JUST_EDITED : 0u);

@@ -26,6 +26,9 @@ class LightSlots {
     // Slot records as the device wants them; dead ones have LIGHT_FLAG_DEAD.
     const std::vector<shared::LightHot>& hot() const { return hot_; }
     const std::vector<shared::LightCold>& cold() const { return cold_; }
+    const std::vector<shared::LightShaping>& shapings() const {
+        return shapings_;
+    } // of living lights, by slot
 
     // Whether the last update() changed a record in any way, flags included.
     bool changed() const { return changed_; }
@@ -47,12 +50,15 @@ class LightSlots {
         bool wasEdited = false;
     };
     std::uint32_t take(std::uint64_t id, std::uint64_t frame);
+    bool takeShaping(std::uint32_t slot, const GpuLights& lights, std::uint32_t typeFlags);
 
     std::vector<Slot> slots_;
     std::map<std::uint64_t, std::uint32_t> slotOfId_;
     std::vector<shared::LightHot> hot_; // with flags
     std::vector<shared::LightCold> cold_;
     std::vector<shared::LightHot> plain_; // without flags of this class, to see what an edit changed
+    std::map<std::uint32_t, shared::LightShaping> shapingOfSlot_;
+    std::vector<shared::LightShaping> shapings_;
     bool first_ = true, changed_ = false, edited_ = false;
 };
 

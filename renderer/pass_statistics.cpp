@@ -31,6 +31,7 @@ constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
     {shared::FEATURE_RECT_LIGHTS, "RectLights", "no such light"},
     {shared::FEATURE_DISK_LIGHTS, "DiskLights", "no such light"},
     {shared::FEATURE_MOVING_INSTANCES, "MovingInstances", "nothing moves"},
+    {shared::FEATURE_BARN_DOORS, "BarnDoors", "no rectangle light has any"},
 }};
 
 double percentile(std::vector<double> values, double share) {

@@ -1,6 +1,7 @@
 // The float build. Compiled with -fsingle-precision-constant, because the shaders' literals have no suffix.
 #include "renderer/lights_cpp/lights_f32.h"
 
+#include "renderer/lights_cpp/light_tables.h"
 #include "renderer/lights_cpp/ltc_table.h"
 
 #include <glm/gtc/packing.hpp>
@@ -17,6 +18,9 @@ static vec4 ltcLookup0(vec2 uv) {
 }
 static vec4 ltcLookup1(vec2 uv) {
     return vec4(boundLtcTable().sample(uv, LtcLayer::Scales));
+}
+static LightShaping lightShapingLookup(uint place) {
+    return boundLightTables().shapings.at(place);
 }
 
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header

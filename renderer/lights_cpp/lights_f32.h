@@ -1,5 +1,6 @@
 // shaders/math and shaders/lights as C++ in float: the numbers a shader gets. For GPU tests, flux and
-// numerical error. lightIrradiance and makeLtcLobe need a table bound by useLtcTable (ltc_table.h).
+// numerical error. lightIrradiance and makeLtcLobe need a table bound by useLtcTable (ltc_table.h), lights
+// with a LightShaping one in light_tables.h.
 #pragma once
 
 #include "shaders/shared/gpu_light.h"
@@ -18,6 +19,7 @@ using uvec3 = glm::uvec3;
 using uvec4 = glm::uvec4;
 using mat3 = glm::mat3;
 using shared::LightHot;
+using shared::LightShaping;
 
 #include "shaders/lights/light_types.glsl"
 #include "shaders/math/selection_types.glsl"

@@ -1,6 +1,7 @@
 // The double build.
 #include "renderer/lights_cpp/lights_f64.h"
 
+#include "renderer/lights_cpp/light_tables.h"
 #include "renderer/lights_cpp/ltc_table.h"
 
 #include <glm/gtc/packing.hpp>
@@ -23,11 +24,18 @@ LightHot fromF32(const shared::LightHot& light) {
             .shaping = vec2(light.shaping)};
 }
 
+LightShaping fromF32(const shared::LightShaping& shaping) {
+    return {.doorReachM = vec4(shaping.doorReachM), .doorDepthM = vec4(shaping.doorDepthM)};
+}
+
 static vec4 ltcLookup0(vec2 uv) {
     return boundLtcTable().sample(uv, LtcLayer::Parameters);
 }
 static vec4 ltcLookup1(vec2 uv) {
     return boundLtcTable().sample(uv, LtcLayer::Scales);
+}
+static LightShaping lightShapingLookup(uint place) {
+    return fromF32(boundLightTables().shapings.at(place));
 }
 
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header

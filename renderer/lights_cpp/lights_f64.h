@@ -1,5 +1,6 @@
 // shaders/math and shaders/lights as C++ in double: the same source without its rounding. lightIrradiance and
-// makeLtcLobe need a table bound by useLtcTable (ltc_table.h).
+// makeLtcLobe need a table bound by useLtcTable (ltc_table.h), lights with a LightShaping one in
+// light_tables.h.
 #pragma once
 
 #include "shaders/shared/gpu_light.h"
@@ -22,6 +23,7 @@ using mat3 = glm::dmat3;
 #include "shaders/lights/light_types.glsl"
 #include "shaders/math/selection_types.glsl"
 #include "shaders/shared/light_hot.inl"
+#include "shaders/shared/light_shaping.inl"
 #undef KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // lights_f32.h reads these again
 #undef KILOLUX_MATH_SELECTION_TYPES_GLSL
 
@@ -30,5 +32,6 @@ using mat3 = glm::dmat3;
 
 // The values of a float record, its direction made unit in double.
 LightHot fromF32(const shared::LightHot& light);
+LightShaping fromF32(const shared::LightShaping& shaping);
 
 } // namespace kilolux::f64

@@ -38,6 +38,7 @@ std::vector<PassUse> lightUses() {
     return {{"LightsHot", Access::Read, Presence::Optional},
             {"lightsHotTexels"},
             {"LightsCold"},
+            {"LightShapings", Access::Read, Presence::Optional}, // absent where no light has one
             {"ltcParameters"},
             {"ltcScales"}};
 }

@@ -262,11 +262,13 @@ SourcePoint sampleSource(const OracleLight& light, const dvec3& receiverWs, doub
     return {to / distanceM, distanceM, glm::dot(outward, to) < 0.0};
 }
 
-OraclePointResult estimateLight(const OracleLight& light, const OraclePoint& point,
+OraclePointResult estimateLight(const OracleLight& whole, const OraclePoint& point,
                                 const Occlusion& occlusion, Estimator estimator, int samples,
                                 std::uint64_t seed) {
-    const double shaping = shapingAt(light, point.positionWs);
-    if (light.muted || shaping <= 0.0) return {};
+    const double shaping = shapingAt(whole, point.positionWs);
+    const std::optional<OracleLight> open = openPart(whole, point.positionWs);
+    if (whole.muted || shaping <= 0.0 || !open) return {};
+    const OracleLight& light = *open;
     if (light.isDelta()) {
         if (light.type == LightType::Directional)
             return evaluateDelta(light, point, occlusion, -light.dirWs,

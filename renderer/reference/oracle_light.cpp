@@ -119,6 +119,7 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     case LightType::Rect:
         light.halfWidthM = 0.5 * def.widthM;
         light.halfHeightM = 0.5 * def.heightM;
+        light.flaps.fill({def.barnDoorAngleRad, def.barnDoorLengthM});
         break;
     case LightType::Disk:
         light.radiusM = 0.5 * def.widthM;
@@ -157,6 +158,45 @@ double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs) {
         factor *= square(std::clamp((cosAngle - light.cosOuter) / width, 0.0, 1.0));
     }
     return factor;
+}
+
+namespace {
+
+// In the plane of an axis that points out over the flap's edge and the light's direction: x along the axis
+// from the light's middle, y ahead. The part -edge .. result of the source is seen from `receiver`; empty
+// when below -edge.
+double seenUpTo(const Flap& flap, double edgeM, const glm::dvec2& receiver) {
+    if (flap.lengthM <= 0.0) return edgeM;
+    const glm::dvec2 hinge(edgeM, 0.0);
+    const glm::dvec2 leaf = flap.lengthM * glm::dvec2(std::sin(flap.angleRad), std::cos(flap.angleRad));
+    const glm::dvec2 tip = hinge + leaf;
+    if (receiver.y <= tip.y) {
+        const glm::dvec2 to = receiver - hinge;
+        const bool outside = to.x * leaf.y - to.y * leaf.x > 0.0;
+        return outside ? -2.0 * edgeM : edgeM;
+    }
+    // The line from the receiver over the tip, as far as the source's plane.
+    const double steps = receiver.y / (receiver.y - tip.y);
+    return std::min(edgeM, receiver.x + (tip.x - receiver.x) * steps);
+}
+
+} // namespace
+
+std::optional<OracleLight> openPart(const OracleLight& light, const glm::dvec3& receiverWs) {
+    if (light.type != LightType::Rect) return light;
+    const glm::dvec3 to = receiverWs - light.centerWs;
+    const double x = glm::dot(to, light.xWs), y = glm::dot(to, light.yWs), ahead = glm::dot(to, light.dirWs);
+    if (ahead <= 0.0) return {};
+    const double left = seenUpTo(light.flaps[0], light.halfWidthM, {-x, ahead}),
+                 right = seenUpTo(light.flaps[1], light.halfWidthM, {x, ahead}),
+                 below = seenUpTo(light.flaps[2], light.halfHeightM, {-y, ahead}),
+                 above = seenUpTo(light.flaps[3], light.halfHeightM, {y, ahead});
+    if (left + right <= 0.0 || below + above <= 0.0) return {};
+    OracleLight part = light;
+    part.centerWs += light.xWs * (0.5 * (right - left)) + light.yWs * (0.5 * (above - below));
+    part.halfWidthM = 0.5 * (left + right);
+    part.halfHeightM = 0.5 * (below + above);
+    return part;
 }
 
 } // namespace kilolux::oracle

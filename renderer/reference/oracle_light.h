@@ -6,11 +6,19 @@
 
 #include "renderer/document/scene.h"
 
+#include <array>
 #include <optional>
 
 namespace kilolux::oracle {
 
 inline constexpr double kPi = 3.14159265358979323846;
+
+// A barn door's flap: it leans `angleRad` outward from straight ahead and is `lengthM` long; endless along
+// its hinge.
+struct Flap {
+    double angleRad = 0.0;
+    double lengthM = 0.0;
+};
 
 struct OracleLight {
     LightType type = LightType::Sphere;
@@ -26,6 +34,7 @@ struct OracleLight {
     double angularRadiusRad = 0.0;    // directional
     double cosInner = 1.0;            // spot
     double cosOuter = 0.0;            // spot
+    std::array<Flap, 4> flaps;        // rectangle: hinged at the edges at -x, +x, -y, +y
     std::optional<double> rangeM;
     double rayEndBiasM = 0.0;
     glm::dvec3 intensityCd{0.0};    // local lights
@@ -42,6 +51,10 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode,
 
 // Window x cone towards a receiver: a factor on the whole light, 1 for directional lights.
 double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs);
+
+// What the receiver sees of the light past its flaps: a light of the same radiance, smaller and moved.
+// Nothing where they hide it all.
+std::optional<OracleLight> openPart(const OracleLight& light, const glm::dvec3& receiverWs);
 
 // Solid angle that a spot's cone passes, weighted by the cone's factor: 2 pi Int C(cos) d cos, in sr.
 double coneSolidAngleSr(double cosInner, double cosOuter);

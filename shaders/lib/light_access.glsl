@@ -12,6 +12,7 @@ layout(constant_id = FEATURE_SPOT_LIGHTS) const bool kSpotLights = true;
 layout(constant_id = FEATURE_TUBE_LIGHTS) const bool kTubeLights = true;
 layout(constant_id = FEATURE_RECT_LIGHTS) const bool kRectLights = true;
 layout(constant_id = FEATURE_DISK_LIGHTS) const bool kDiskLights = true;
+layout(constant_id = FEATURE_BARN_DOORS) const bool kBarnDoors = true;
 layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = false;
 #define KX_HAS_DIRECTIONAL kDirectionalLights
 #define KX_HAS_SPHERE kSphereLights
@@ -19,6 +20,7 @@ layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = fal
 #define KX_HAS_TUBE kTubeLights
 #define KX_HAS_RECT kRectLights
 #define KX_HAS_DISK kDiskLights
+#define KX_HAS_BARN_DOORS kBarnDoors
 
 uniform sampler2D ltcParameters;
 uniform sampler2D ltcScales;
@@ -27,6 +29,12 @@ vec4 ltcLookup0(vec2 uv) {
 }
 vec4 ltcLookup1(vec2 uv) {
     return textureLod(ltcScales, uv, 0.0);
+}
+layout(scalar) readonly buffer LightShapings {
+    LightShaping lightShapings[];
+};
+LightShaping lightShapingLookup(uint place) {
+    return lightShapings[place];
 }
 #include "../lights/light.glsl"
 

@@ -63,7 +63,7 @@ CellBounds cellBounds(uvec2 firstPx, uvec2 endPx, vec2 depthsM) {
 }
 
 // Whether the cell lies beyond a plane by more than `slackM`: nothing of it is on the inner side. For whatever bounds a
-// light by planes: half spaces and the sides of cones, later the flaps of barn doors (LightHot::shaping).
+// light by planes: half spaces, the sides of cones and barn doors.
 bool cellBeyondPlane(CellBounds cell, vec3 pointToCell, vec3 outward, float slackM) {
     vec3 along = abs(vec3(dot(outward, cell.right), dot(outward, cell.down), dot(outward, cell.forward)));
     return dot(outward, pointToCell) > dot(along, cell.halfM) + slackM;
@@ -102,6 +102,33 @@ bool mayReach(LightReach light, CellBounds cell) {
     vec3 sideways = acrossM > 0.01 * distanceM ? across / acrossM : vec3(0.0);
     vec3 outward = sideways * light.cosine - light.axisWs * sqrt(max(1.0 - light.cosine * light.cosine, 0.0));
     return !cellBeyondPlane(cell, toCell, outward, slackM);
+}
+
+// Whether barn doors hide the whole light from all of the cell. A point sees nothing of it past one flap when it is
+// beyond two planes: that of the flap, and that through its tip and the light's opposite edge.
+bool doorsHide(LightHot light, CellBounds cell) {
+    if (!lightHasShaping(light)) return false;
+    LightShaping doors = lightShaping(light);
+    mat3 frame = lightFrame(light);
+    vec3 toCell = cell.centerWs - light.positionWs;
+    float slackM = 1.0e-5 * (length(toCell) + light.sizeM.x + light.sizeM.y);
+    for (int side = 0; side < 4; ++side) {
+        float depthM = doors.doorDepthM[side], reachM = doors.doorReachM[side];
+        if (depthM <= 0.0) continue;
+        float edgeM = side < 2 ? light.sizeM.x : light.sizeM.y;
+        vec3 aside = (side < 2 ? frame[0] : frame[1]) * ((side & 1) == 0 ? -1.0 : 1.0);
+        vec3 flap = normalize(aside * depthM - light.dirWs * reachM);
+        vec3 sight = normalize(aside * depthM - light.dirWs * (reachM + 2.0 * edgeM));
+        if (cellBeyondPlane(cell, toCell - aside * edgeM, flap, slackM) &&
+            cellBeyondPlane(cell, toCell + aside * edgeM, sight, slackM)) return true;
+    }
+    return false;
+}
+
+// Both tests for the light of a slot.
+bool mayReach(LightReach light, uint slot, CellBounds cell) {
+    if (!mayReach(light, cell)) return false;
+    return !kBarnDoors || light.type != LIGHT_RECT || !doorsHide(loadLightHot(slot), cell);
 }
 
 // --- The list of a cell ------------------------------------------------------------------------------------

@@ -1,9 +1,13 @@
 // One set of functions for every light type; each evaluation has a single call site, the type only chooses
-// what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and may define
-// KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT and KX_HAS_DISK as constant
-// expressions that are false where the scene has no such light.
+// what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place), and may
+// define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK and KX_HAS_BARN_DOORS
+// as constant expressions that are false where the scene has no such light.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
 #define KILOLUX_LIGHTS_LIGHT_GLSL
+
+#ifndef KX_HAS_BARN_DOORS
+#define KX_HAS_BARN_DOORS true
+#endif
 #include "directional.glsl"
 #include "disk.glsl"
 #include "irradiance.glsl"

@@ -1,8 +1,9 @@
 // Rectangle light: one-sided Lambert emitter of radiance intensity / area. uv: u along local X, v along local
-// Y, both from the negative side.
+// Y, both from the negative side. Of its part that barn doors leave, samples are even over that part and
+// their uv still that of the whole light.
 #ifndef KILOLUX_LIGHTS_RECT_GLSL
 #define KILOLUX_LIGHTS_RECT_GLSL
-#include "shaping.glsl"
+#include "barn_doors.glsl"
 
 KX_INLINE float rectAreaM2(LightHot light) {
     return max(4.0 * light.sizeM.x * light.sizeM.y, KX_MIN_AREA_M2);
@@ -13,35 +14,41 @@ KX_INLINE LightBounds rectBounds(LightHot light) {
 }
 
 KX_INLINE vec3 rectEvaluate(LightHot light, vec3 receiverWs) {
-    return oneSidedEvaluate(light, receiverWs, rectAreaM2(light));
+    bool seen = rectPartFrom(light, lightFrame(light), receiverWs).share > 0.0;
+    return seen ? oneSidedEvaluate(light, receiverWs, rectAreaM2(light)) : vec3(0.0);
 }
 
 // The four corners are an ellipse's points at 45, 135, 225 and 315 degrees.
 KX_INLINE EmitterOutline rectOutline(LightHot light, vec3 receiverWs, float alpha) {
-    vec3 toCenter = light.positionWs - receiverWs;
-    float distance2 = dot(toCenter, toCenter);
-    float height = -dot(light.dirWs, toCenter);
-    if (height <= 0.0 || distance2 <= 1.0e-24) return unlitOutline();
-    float invDistance = inversesqrt(distance2);
     mat3 frame = lightFrame(light);
-    EmitterOutline outline =
-        pointOutline(toCenter * invDistance, rectAreaM2(light) * height * invDistance / distance2);
+    RectPart part = rectPartFrom(light, frame, receiverWs);
+    vec3 toCenter =
+        light.positionWs - receiverWs + (frame[0] * part.centerM.x + frame[1] * part.centerM.y);
+    float distance2 = dot(toCenter, toCenter);
+    float height = -dot(light.dirWs, light.positionWs - receiverWs);
+    if (height <= 0.0 || distance2 <= 1.0e-24 || part.share <= 0.0) return unlitOutline();
+    float invDistance = inversesqrt(distance2);
+    EmitterOutline outline = pointOutline(
+        toCenter * invDistance, part.share * rectAreaM2(light) * height * invDistance / distance2);
     outline.centerA = outline.dirWs;
-    outline.axisXA = frame[0] * (1.41421356237309504880 * light.sizeM.x * invDistance);
-    outline.axisYA = frame[1] * (1.41421356237309504880 * light.sizeM.y * invDistance);
+    outline.axisXA = frame[0] * (1.41421356237309504880 * part.halfM.x * invDistance);
+    outline.axisYA = frame[1] * (1.41421356237309504880 * part.halfM.y * invDistance);
     outline.arcA = vec2(0.5 * KX_HALF_PI, KX_HALF_PI);
     outline.countA = 4;
     outline.count = 4;
     outline.sectors = 4;
-    outline.angularRadius = min(length(light.sizeM) * invDistance, 1.0);
+    outline.angularRadius = min(length(part.halfM) * invDistance, 1.0);
     return outline;
 }
 
 KX_INLINE LightSample rectSample(LightHot light, vec3 receiverWs, vec2 uv) {
     mat3 frame = lightFrame(light);
-    vec3 toPoint = light.positionWs - receiverWs + frame[0] * ((2.0 * uv.x - 1.0) * light.sizeM.x) +
-                   frame[1] * ((2.0 * uv.y - 1.0) * light.sizeM.y);
-    return areaSample(toPoint, receiverWs, light.dirWs, uv, 1.0 / rectAreaM2(light));
+    RectPart part = rectPartFrom(light, frame, receiverWs);
+    if (part.share <= 0.0) return invalidSample(uv);
+    vec2 atM = part.centerM + (2.0 * uv - vec2(1.0)) * part.halfM;
+    vec2 used = part.share < 1.0 ? clamp(0.5 * atM / max(light.sizeM, vec2(1.0e-9)) + vec2(0.5), 0.0, 1.0) : uv;
+    vec3 toPoint = light.positionWs - receiverWs + frame[0] * atM.x + frame[1] * atM.y;
+    return areaSample(toPoint, receiverWs, light.dirWs, used, 1.0 / (part.share * rectAreaM2(light)));
 }
 
 KX_INLINE LightHit rectIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
@@ -52,10 +59,12 @@ KX_INLINE LightHit rectIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     float distanceM = height / cosEmitter;
     vec3 fromCenter = dirWs * distanceM - toCenter;
     mat3 frame = lightFrame(light);
-    vec2 p = vec2(dot(fromCenter, frame[0]) / max(light.sizeM.x, 1.0e-12),
-                  dot(fromCenter, frame[1]) / max(light.sizeM.y, 1.0e-12));
-    if (max(abs(p.x), abs(p.y)) > 1.0) return noLightHit();
-    return areaHit(distanceM, p * 0.5 + vec2(0.5), 1.0 / rectAreaM2(light), cosEmitter);
+    RectPart part = rectPartFrom(light, frame, originWs);
+    vec2 atM = vec2(dot(fromCenter, frame[0]), dot(fromCenter, frame[1]));
+    vec2 inPart = (atM - part.centerM) / max(part.halfM, vec2(1.0e-12));
+    if (max(abs(inPart.x), abs(inPart.y)) > 1.0 || part.share <= 0.0) return noLightHit();
+    vec2 uv = atM / max(light.sizeM, vec2(1.0e-12)) * 0.5 + vec2(0.5);
+    return areaHit(distanceM, uv, 1.0 / (part.share * rectAreaM2(light)), cosEmitter);
 }
 
 KX_INLINE float rectFlux(LightHot light) {

@@ -24,6 +24,15 @@ KX_INLINE uint lightType(LightHot light) {
     return light.typeFlags & LIGHT_TYPE_MASK;
 }
 
+KX_INLINE bool lightHasShaping(LightHot light) {
+    return light.typeFlags >> LIGHT_SHAPING_SHIFT != 0u;
+}
+
+// Of a light that has one.
+KX_INLINE LightShaping lightShaping(LightHot light) {
+    return lightShapingLookup((light.typeFlags >> LIGHT_SHAPING_SHIFT) - 1u);
+}
+
 // Neither dead nor muted.
 KX_INLINE bool lightIsOn(LightHot light) {
     return (light.typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) == 0u;

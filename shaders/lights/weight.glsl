@@ -5,12 +5,15 @@
 #ifndef KILOLUX_LIGHTS_WEIGHT_GLSL
 #define KILOLUX_LIGHTS_WEIGHT_GLSL
 #include "../math/brdf.glsl"
-#include "shaping.glsl"
+#include "barn_doors.glsl"
 
 // A light's extent: along `longWs` and `shortWs`, which are square to each other, and for a sphere or a tube
-// halfWidthM in every direction. Directional lights are at a distance of 1.
+// halfWidthM in every direction. Directional lights are at a distance of 1. Of a rectangle with barn doors it is the
+// part that the receiver sees.
 struct LightExtent {
     vec3 toCenter; // from the receiver, m
+    float distance2; // m^2, to the middle of the whole light
+    float share;     // that barn doors leave of the area
     vec3 longWs;   // unit, or 0 for what is round
     vec3 shortWs;
     float halfLengthM;
@@ -28,6 +31,8 @@ KX_INLINE LightExtent lightExtent(LightHot light, vec3 receiverWs) {
     bool tube = KX_HAS_TUBE && type == LIGHT_TUBE;
     LightExtent e;
     e.toCenter = directional ? -light.dirWs : light.positionWs - receiverWs;
+    e.distance2 = max(dot(e.toCenter, e.toCenter), 1.0e-12);
+    e.share = 1.0;
     e.aheadM = -dot(light.dirWs, e.toCenter);
     e.round_ = !rect && !disk && !tube;
     e.flat_ = rect || disk;
@@ -38,14 +43,23 @@ KX_INLINE LightExtent lightExtent(LightHot light, vec3 receiverWs) {
     if (disk) tangent = aside * inversesqrt(max(dot(aside, aside), 1.0e-20));
     bool turned = rect && light.sizeM.y > light.sizeM.x;
     vec3 bitangent = cross(light.dirWs, tangent);
+    vec2 halfM = light.sizeM;
+    if (KX_HAS_BARN_DOORS && rect) {
+        // The bitangent here is local -Y.
+        RectPart part = rectPart(light, vec2(-dot(e.toCenter, tangent), dot(e.toCenter, bitangent)), e.aheadM);
+        e.toCenter += tangent * part.centerM.x - bitangent * part.centerM.y;
+        e.share = part.share;
+        halfM = part.halfM;
+        turned = halfM.y > halfM.x;
+    }
     e.longWs = turned ? bitangent : tangent;
     e.shortWs = turned ? tangent : bitangent;
     if (!e.flat_) e.shortWs = vec3(0.0);
     float radius = light.sizeM.x;
     if (directional) radius *= inversesqrt(1.0 + radius * radius);
     if (tube) radius = max(radius, 1.0e-4);
-    e.halfLengthM = rect ? max(light.sizeM.x, light.sizeM.y) : (tube ? light.sizeM.y : (disk ? radius : 0.0));
-    e.halfWidthM = rect ? min(light.sizeM.x, light.sizeM.y) : radius;
+    e.halfLengthM = rect ? max(halfM.x, halfM.y) : (tube ? light.sizeM.y : (disk ? radius : 0.0));
+    e.halfWidthM = rect ? min(halfM.x, halfM.y) : radius;
     return e;
 }
 
@@ -55,12 +69,13 @@ KX_INLINE float extentAlong(LightExtent e, vec3 dirWs) {
     return e.halfLengthM * abs(dot(e.longWs, dirWs)) + e.halfWidthM * across;
 }
 
-// Whether a part of the light may be below the horizon of a receiver. There its points are drawn again until one is
-// above, which fits uniform points only.
-KX_INLINE bool lightDipsBelow(LightHot light, ShadingPoint point) {
+// Whether a part of the light may be below the horizon of a receiver, or is behind barn doors. Below the horizon
+// points are drawn again until one is above, and points between doors are those of the part that is seen: masks of
+// the whole light's quarters fit neither.
+KX_INLINE bool lightIsCut(LightHot light, ShadingPoint point) {
     LightExtent e = lightExtent(light, point.positionWs);
     float slackM = 1.0e-3 * (e.halfLengthM + e.halfWidthM); // tangents are rounded
-    return dot(point.normalWs, e.toCenter) < extentAlong(e, point.normalWs) + slackM;
+    return e.share < 1.0 || dot(point.normalWs, e.toCenter) < extentAlong(e, point.normalWs) + slackM;
 }
 
 // The light as the receiver sees it.
@@ -143,12 +158,13 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
     float intensity = luminance(light.intensity);
     LightExtent e = lightExtent(light, point.positionWs);
     // Limits are a little wide, and what is left of them above 0, so that rounding loses no light.
-    float distance2 = max(dot(e.toCenter, e.toCenter), 1.0e-12);
+    float distance2 = e.distance2;
     float ratio2 = lightType(light) == LIGHT_DIRECTIONAL ? 0.0 : distance2 * light.invRange * light.invRange;
     float above = dot(point.normalWs, e.toCenter) + 1.001 * (e.halfLengthM + e.halfWidthM);
     bool dark = intensity <= 0.0 || !lightIsOn(light) || ratio2 > 1.00001 || above < 0.0;
     if (dark || (e.flat_ && e.aheadM <= 0.0)) return 0.0;
-    intensity *= max(1.0 - ratio2 * ratio2, 1.0e-6);
+    if (KX_HAS_BARN_DOORS && e.share <= 0.0) return 0.0;
+    intensity *= e.share * max(1.0 - ratio2 * ratio2, 1.0e-6);
     if (KX_HAS_SPOT && lightType(light) == LIGHT_SPOT) {
         float cone = e.aheadM * inversesqrt(distance2) * light.shaping.x + light.shaping.y;
         if (cone < -1.0e-4) return 0.0;

@@ -61,7 +61,7 @@ void fillByThreads(uint thread, GridCell coarse) {
         uvec2 bits = uvec2(0u);
         for (uint i = 0u; busy && i < min(GRID_GROUP, coarse.count - first); ++i) {
             LightReach light = sharedLights[i];
-            if (!mayReach(light, bounds)) continue;
+            if (!mayReach(light, gridIndices[coarse.first + first + i], bounds)) continue;
             bits |= i < 32u ? uvec2(1u << i, 0u) : uvec2(0u, 1u << (i - 32u));
             types |= 1u << light.type;
         }
@@ -85,8 +85,9 @@ void fillByGroup(uint thread, uint place, GridCell coarse) {
     CellBounds bounds = sharedBounds[place];
     clearList(thread);
     for (uint i = thread; i < coarse.count; i += GRID_GROUP) {
-        LightReach light = lightReach(loadLightHot(gridIndices[coarse.first + i]));
-        if (mayReach(light, bounds)) markLight(i, light.type);
+        uint slot = gridIndices[coarse.first + i];
+        LightReach light = lightReach(loadLightHot(slot));
+        if (mayReach(light, slot, bounds)) markLight(i, light.type);
     }
     uint total;
     uint at = prefixOf(thread, markedByThread(thread), total);

@@ -38,7 +38,7 @@ void main() {
             s.list = choice.list;
             LightHot light = loadOwnLightHot(s.slot);
             uint mask = choice.item >> ITEM_MASK_SHIFT & 15u;
-            if (mask == 15u || lightDipsBelow(light, receiver.point)) mask = 0u;
+            if (mask == 15u || lightIsCut(light, receiver.point)) mask = 0u;
             MaskedPoint point = areaMaskWarp(rotatedPoint(state.noise.point, i, how.choices), mask, how.maskHiddenShare);
             s.uv = point.uv;
             s.contribution = choice.contribution / (point.pdf * float(how.rays));

@@ -1,6 +1,7 @@
 // The light records that cross from the document to the shaders. All values are photometric and never
 // pre-exposed. The hot record is what candidate weights and culling need, in exactly 64 bytes; the cold one
-// holds the rest. Shaders read them only through loadLightHot(slot) and loadLightCold(slot).
+// holds the rest. Shaders read them only through loadLightHot(slot) and loadLightCold(slot). A third record, which the
+// hot one points to, exists for lights that are shaped by more than a cone and a range.
 #ifndef KILOLUX_SHARED_GPU_LIGHT_H
 #define KILOLUX_SHARED_GPU_LIGHT_H
 #include "base.h"
@@ -25,7 +26,13 @@ KX_CONST uint LIGHT_JUST_EDITED_FRAMES = 3u;
 KX_CONST uint LIGHT_EPOCH_SHIFT = 8u; // the low 4 bits of the slot's epoch, which every edit raises
 KX_CONST uint LIGHT_EPOCH_MASK = 15u;
 
+// Above the epoch: one more than the place of the light's LightShaping, 0 for a light without.
+KX_CONST uint LIGHT_SHAPING_SHIFT = 12u;
+KX_CONST uint LIGHT_MAX_SHAPINGS = 0xfffffu;
+
 #include "light_hot.inl" // struct LightHot
+
+#include "light_shaping.inl" // struct LightShaping
 
 struct LightCold {
     float rayEndBiasM; // shadow rays stop this far before the sampled point
@@ -39,5 +46,6 @@ KX_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(kilolux::shared::LightHot) == 64);
 static_assert(sizeof(kilolux::shared::LightCold) == 16);
+static_assert(sizeof(kilolux::shared::LightShaping) == 32);
 #endif
 #endif

@@ -10,6 +10,5 @@ struct LightHot {
     uint typeFlags;    // LIGHT_* above
     vec2 sizeM;        // sphere, spot: radius, 0; tube: radius, half length; rect: half width, half height;
                        // disk: radius, 0; directional: tangent of the angular radius, 0
-    vec2 shaping;      // spot: cone scale and offset, so that factor = saturate(cos * scale + offset)^2;
-                       // rect: barn door angle (rad) and length (m)
+    vec2 shaping;      // spot: cone scale and offset, so that factor = saturate(cos * scale + offset)^2
 };

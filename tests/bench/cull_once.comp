@@ -24,7 +24,7 @@ void main() {
     clearList(thread);
     for (uint slot = thread; slot < frame.lightCount; slot += GRID_GROUP) {
         LightReach light = lightReach(loadLightHot(slot));
-        if (mayReach(light, bounds)) markLight(slot, light.type);
+        if (mayReach(light, slot, bounds)) markLight(slot, light.type);
     }
     uint total;
     uint at = prefixOf(thread, markedByThread(thread), total);

@@ -2,6 +2,7 @@
 // lights of every type at ordinary and at hard receivers, and the functions with only the needed features on.
 #include "tests/gpu/support/gpu_fixture.h"
 
+#include "renderer/lights_cpp/light_tables.h"
 #include "renderer/lights_cpp/lights_f32.h"
 #include "renderer/lights_cpp/lights_f64.h"
 #include "renderer/lights_cpp/ltc_table.h"
@@ -64,6 +65,23 @@ class Numbers {
   private:
     std::mt19937 engine_{11};
 };
+
+// Every other rectangle has the flaps of one of these.
+LightTables someShapings() {
+    Numbers random;
+    LightTables tables;
+    for (int i = 0; i < 50; ++i) {
+        shared::LightShaping shaping{};
+        for (int flap = 0; flap < 4; ++flap) {
+            const double angle = random.uniform(0.0, 1.5),
+                         length = random.oneIn(4) ? 0.0 : random.logUniform(0.1, 3.0);
+            shaping.doorReachM[flap] = float(length * std::sin(angle));
+            shaping.doorDepthM[flap] = float(length * std::cos(angle));
+        }
+        tables.shapings.push_back(shaping);
+    }
+    return tables;
+}
 
 shared::LightHot randomLight(Numbers& random, std::uint32_t type) {
     shared::LightHot light{};
@@ -177,6 +195,9 @@ class Lights : public GpuTest {
         gpu::Buffer coldBuffer(device(), {"cold", cold.size() * sizeof(shared::LightCold)});
         gpu::Buffer input(device(), {"cases", cases.size() * sizeof(LightTestCase)});
         gpu::Buffer output(device(), {"outputs", cases.size() * kOutputs * 4});
+        const std::vector<shared::LightShaping>& shapingRecords = boundLightTables().shapings;
+        gpu::Buffer shapings(device(), {"shapings", shapingRecords.size() * sizeof(shared::LightShaping)});
+        shapings.upload(shapingRecords);
         hot.upload(slots);
         coldBuffer.upload(cold);
         input.upload(cases);
@@ -187,6 +208,7 @@ class Lights : public GpuTest {
                      {{"LightsHot", hot},
                       {"lightsHotTexels", hot},
                       {"LightsCold", coldBuffer},
+                      {"LightShapings", shapings},
                       {"ltcParameters", parameters, gpu::SamplerKind::LinearClamp},
                       {"ltcScales", scales, gpu::SamplerKind::LinearClamp},
                       {"Cases", input},
@@ -207,11 +229,14 @@ class Lights : public GpuTest {
         return image;
     }
 
+    const LightTables tables_ = someShapings();
+    const BindLightTables bound_{tables_};
     gpu::ComputePass pass_{resources(),
                            "lights",
                            {{"LightsHot"},
                             {"lightsHotTexels"},
                             {"LightsCold"},
+                            {"LightShapings"},
                             {"ltcParameters"},
                             {"ltcScales"},
                             {"Cases"},
@@ -229,6 +254,8 @@ TypeCases casesOf(std::uint32_t type, std::size_t count) {
     TypeCases result;
     for (std::size_t i = 0; i < 200; ++i)
         result.lights.push_back(randomLight(random, type));
+    for (std::uint32_t i = 0; type == shared::LIGHT_RECT && i < result.lights.size(); i += 2)
+        result.lights[i].typeFlags |= (i / 2 % 50 + 1) << shared::LIGHT_SHAPING_SHIFT;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t slot = std::uint32_t(i % result.lights.size());
         result.cases.push_back(randomCase(random, result.lights[slot], slot));
@@ -315,6 +342,7 @@ TEST_P(LightsByType, NeededFeaturesAreEnough) {
     for (std::size_t type = 0; type < std::size(kFeatureOfType); ++type) {
         needed[std::uint32_t(kFeatureOfType[type])] = type == GetParam();
     }
+    needed[shared::FEATURE_BARN_DOORS] = GetParam() == shared::LIGHT_RECT;
     const std::vector<float> exact = run(made.lights, made.cases, needed);
     int different = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {

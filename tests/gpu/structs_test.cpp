@@ -105,6 +105,7 @@ class Structs : public GpuTest {
 
 STRUCT_TEST(LightHot)
 STRUCT_TEST(LightCold)
+STRUCT_TEST(LightShaping)
 STRUCT_TEST(FrameConstants)
 STRUCT_TEST(GridConstants)
 STRUCT_TEST(SamplingConstants)

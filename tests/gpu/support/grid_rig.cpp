@@ -113,7 +113,12 @@ Scene crowdScene(const LightCrowd& crowd) {
             glm::dvec4(crowd.spreadM * glm::dvec3(within(-1, 1), within(-1, 1), within(-1, 1)), 1.0);
         node.localFromNode = node.worldFromNode;
         scene.nodes.push_back(node);
-        scene.lightDefs.push_back(randomLight(within, crowd));
+        LightDef def = randomLight(within, crowd);
+        if (def.type == LightType::Rect && i % 2 == 0) {
+            def.barnDoorAngleRad = glm::half_pi<double>() * (i % 17) / 17.0;
+            def.barnDoorLengthM = def.widthM * (0.2 + i % 5);
+        }
+        scene.lightDefs.push_back(def);
         LightNode light;
         light.node = int(scene.nodes.size()) - 1;
         light.def = int(scene.lightDefs.size()) - 1;

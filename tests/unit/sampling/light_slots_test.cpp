@@ -127,6 +127,35 @@ TEST(LightSlots, EveryFieldCounts) {
     EXPECT_EQ(epochAfter([](GpuLights& l) { l.hot[0].typeFlags = LIGHT_RECT; }), 1u);
     EXPECT_EQ(epochAfter([](GpuLights& l) { l.hot[0].typeFlags |= LIGHT_FLAG_MUTED; }), 1u);
     EXPECT_EQ(epochAfter([](GpuLights& l) { l.cold[0].rayEndBiasM = 0.1f; }), 1u);
+    EXPECT_EQ(epochAfter([](GpuLights& l) {
+                  l.tables.shapings.resize(1);
+                  l.hot[0].typeFlags |= 1u << LIGHT_SHAPING_SHIFT;
+              }),
+              1u);
+}
+
+// A light's shaping counts, the place where it lies does not.
+TEST(LightSlots, ShapingsFollowTheirLights) {
+    const auto shaped = [](float depthM, std::uint32_t at, std::uint32_t of) {
+        Lights lights = Lights().add(1, 1).add(2, 2);
+        lights.records.tables.shapings.resize(of);
+        lights.records.tables.shapings[at].doorDepthM = glm::vec4(depthM);
+        lights.records.hot[1].typeFlags |= (at + 1u) << LIGHT_SHAPING_SHIFT;
+        return lights;
+    };
+    LightSlots slots;
+    update(slots, shaped(0.5f, 0, 1), 0);
+    update(slots, shaped(0.5f, 2, 3), 1);
+    EXPECT_FALSE(slots.edited()) << "only the place is another";
+    ASSERT_EQ(slots.shapings().size(), 1u);
+    EXPECT_EQ(slots.hot()[1].typeFlags >> LIGHT_SHAPING_SHIFT, 1u);
+    update(slots, shaped(0.7f, 0, 1), 2);
+    EXPECT_TRUE(slots.edited());
+    EXPECT_EQ(epochOf(slots, 1), 1u);
+    EXPECT_EQ(slots.shapings()[0].doorDepthM.x, 0.7f);
+    update(slots, Lights().add(1, 1).add(2, 2), 3);
+    EXPECT_EQ(epochOf(slots, 1), 2u);
+    EXPECT_TRUE(slots.shapings().empty());
 }
 
 TEST(LightSlots, GravesRestBeforeTheyAreTaken) {
