@@ -2,6 +2,7 @@
 // a cell's sorted list is counted and copied out. For the passes that fill the light grid.
 #ifndef KILOLUX_LIB_LIGHT_CULL_GLSL
 #define KILOLUX_LIB_LIGHT_CULL_GLSL
+#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "light_access.glsl"
 #include "light_grid.glsl"
 
@@ -136,7 +137,7 @@ bool mayReach(LightReach light, uint slot, CellBounds cell) {
 const uint kMaskWords = GRID_MAX_LIGHTS / 32u;
 const uint kWordsPerThread = kMaskWords / GRID_GROUP;
 shared uint sharedMask[kMaskWords];
-shared uint sharedSums[GRID_GROUP];
+shared uint sharedSums[GRID_GROUP]; // of each subgroup
 shared uint sharedTypes;
 shared uint sharedFirst;
 
@@ -151,18 +152,23 @@ void markLight(uint position, uint type) {
     atomicOr(sharedTypes, 1u << type);
 }
 
+// The thread's index in its group, in the order of prefixOf().
+uint groupThread() {
+    return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID;
+}
+
 // Exclusive prefix sum of the threads' numbers; `total` of the group. All threads call it.
-uint prefixOf(uint thread, uint number, out uint total) {
-    sharedSums[thread] = number;
+uint prefixOf(uint number, out uint total) {
+    uint beforeLane = subgroupExclusiveAdd(number), ofSubgroup = subgroupAdd(number);
+    if (subgroupElect()) sharedSums[gl_SubgroupID] = ofSubgroup;
     barrier();
-    for (uint step = 1u; step < GRID_GROUP; step <<= 1u) {
-        uint left = thread >= step ? sharedSums[thread - step] : 0u;
-        barrier();
-        sharedSums[thread] += left;
-        barrier();
+    uint before = 0u;
+    total = 0u;
+    for (uint i = 0u; i < gl_NumSubgroups; ++i) {
+        before += i < gl_SubgroupID ? sharedSums[i] : 0u;
+        total += sharedSums[i];
     }
-    total = sharedSums[GRID_GROUP - 1u];
-    return sharedSums[thread] - number;
+    return before + beforeLane;
 }
 
 // Lights marked in this thread's words of the mask.

@@ -13,7 +13,7 @@ layout(scalar) writeonly buffer GridIndices {
 };
 
 void main() {
-    uint thread = gl_LocalInvocationIndex;
+    uint thread = groupThread();
     uvec3 cell = gl_WorkGroupID;
     uvec3 first = cell * GRID_COARSE, end = min(first + GRID_COARSE, frame.grid.fineSize);
     vec2 depthsM = surfaceDepths(cell.xy, kPyramidCoarse, gridSliceDepth(first.z), gridSliceDepth(end.z));
@@ -28,7 +28,7 @@ void main() {
         if (mayReach(light, slot, bounds)) markLight(slot, light.type);
     }
     uint total;
-    uint at = prefixOf(thread, markedByThread(thread), total);
+    uint at = prefixOf(markedByThread(thread), total);
     uint firstIndex = takeRoom(thread, total);
     // The index list is at least as long as all coarse lists can be.
     for (uint i = 0u; i < kWordsPerThread; ++i) {

@@ -71,7 +71,7 @@ void fillByThreads(uint thread, GridCell coarse) {
         count += uint(bitCount(bits.x) + bitCount(bits.y));
     }
     uint total;
-    uint at = prefixOf(thread, count, total);
+    uint at = prefixOf(count, total);
     at += takeRoom(thread, total);
     if (!busy || !writeCell(sharedCellIndex[thread], GridCell(at, count, types), coarse)) return;
     for (uint word = 0u; word * 32u < coarse.count; ++word) {
@@ -90,7 +90,7 @@ void fillByGroup(uint thread, uint place, GridCell coarse) {
         if (mayReach(light, slot, bounds)) markLight(i, light.type);
     }
     uint total;
-    uint at = prefixOf(thread, markedByThread(thread), total);
+    uint at = prefixOf(markedByThread(thread), total);
     uint firstIndex = takeRoom(thread, total);
     bool fits = firstIndex + total <= frame.grid.capacity;
     for (uint i = 0u; fits && i < kWordsPerThread; ++i) {
@@ -104,7 +104,7 @@ void fillByGroup(uint thread, uint place, GridCell coarse) {
 }
 
 void main() {
-    uint thread = gl_LocalInvocationIndex;
+    uint thread = groupThread();
     GridCell coarse = coarseCells[gridCoarseIndex(gl_WorkGroupID)];
     gatherCells(thread);
     uint cells = sharedCells;

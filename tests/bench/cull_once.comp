@@ -13,7 +13,7 @@ layout(scalar) writeonly buffer GridIndices {
 };
 
 void main() {
-    uint thread = gl_LocalInvocationIndex;
+    uint thread = groupThread();
     uvec3 cell = gl_WorkGroupID;
     vec2 depthsM = surfaceDepths(cell.xy, kPyramidFine, gridSliceDepth(cell.z), gridSliceDepth(cell.z + 1u));
     if (depthsM.y < depthsM.x) {
@@ -27,7 +27,7 @@ void main() {
         if (mayReach(light, slot, bounds)) markLight(slot, light.type);
     }
     uint total;
-    uint at = prefixOf(thread, markedByThread(thread), total);
+    uint at = prefixOf(markedByThread(thread), total);
     uint firstIndex = takeRoom(thread, total);
     bool fits = firstIndex + total <= frame.grid.capacity;
     for (uint i = 0u; fits && i < kWordsPerThread; ++i) {
