@@ -10,6 +10,22 @@
 
 namespace kilolux {
 
+namespace {
+
+// Does the work; what the device throws, or who cancels, becomes the result.
+template<typename Work>
+auto told(Work work) -> decltype(work()) {
+    try {
+        return work();
+    } catch (const gpu::DeviceError& error) {
+        return Error{error.what()};
+    } catch (const gpu::Interrupted&) {
+        return Error{"cancelled"};
+    }
+}
+
+} // namespace
+
 void Renderer::Impl::describeCounters() {
     using namespace shared;
     const auto ratio = [&](std::uint32_t above, std::uint32_t below) {
@@ -99,21 +115,15 @@ std::span<const NamedChoice> Renderer::methods() {
 }
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const Scene& scene, const RenderOptions& options) {
-    try {
+    return told([&]() -> Result<std::unique_ptr<Renderer>> {
         auto impl = std::make_unique<Impl>(scene, options);
         if (auto error = impl->prepare()) return *error;
         return std::unique_ptr<Renderer>(new Renderer(std::move(impl)));
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    });
 }
 
 Result<Picture> Renderer::render(const RenderProgress& progress) {
-    try {
-        return impl_->render(progress);
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    return told([&] { return impl_->render(progress); });
 }
 
 std::optional<Error> Renderer::Impl::renderFrame() {
@@ -132,11 +142,7 @@ std::optional<Error> Renderer::Impl::renderFrame() {
 }
 
 std::optional<Error> Renderer::renderFrame() {
-    try {
-        return impl_->renderFrame();
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    return told([&] { return impl_->renderFrame(); });
 }
 
 bool Renderer::wasInterrupted() const {
@@ -171,7 +177,7 @@ void Renderer::setRenderScale(double scale) {
 
 std::optional<Error> Renderer::setSettings(const Settings& settings) {
     const Settings before = std::exchange(impl_->options.settings, settings);
-    try {
+    return told([&] {
         std::optional<Error> error = impl_->preparePlan();
         if (error) {
             impl_->options.settings = before;
@@ -181,31 +187,23 @@ std::optional<Error> Renderer::setSettings(const Settings& settings) {
         const bool sameExposure = impl_->options.settings.exposureEv100 == before.exposureEv100;
         if (!sameExposure) impl_->exposureEv100 = impl_->wantedExposureEv100();
         return error;
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    });
 }
 
 std::optional<Error> Renderer::setView(std::string_view view, const std::optional<ViewRange>& range) {
-    try {
-        return impl_->setView(view, range);
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    return told([&] { return impl_->setView(view, range); });
 }
 
 std::optional<Error> Renderer::resize(int width, int height) {
     impl_->options.width = width;
     impl_->options.height = height;
-    try {
+    return told([&]() -> std::optional<Error> {
         // Pipelines stay, unless another size wants another producer.
         const bool samePasses = impl_->wantedProducer() == impl_->plan.producer;
         if (samePasses) impl_->makeTargets();
         impl_->historyReset = "size of the picture";
         return samePasses ? std::nullopt : impl_->preparePlan();
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    });
 }
 
 std::uint32_t Renderer::meanFrames() const {
@@ -217,11 +215,7 @@ std::vector<std::byte> Renderer::displayPixels() const {
 }
 
 Result<Probe> Renderer::probe(glm::ivec2 pixel, ProbeDepth depth) {
-    try {
-        return impl_->probe(pixel, depth);
-    } catch (const gpu::DeviceError& error) {
-        return Error{error.what()};
-    }
+    return told([&] { return impl_->probe(pixel, depth); });
 }
 
 std::vector<glm::uvec2> Renderer::visibleLists() const {

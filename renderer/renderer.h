@@ -23,6 +23,8 @@
 
 namespace kilolux {
 
+class TaskWatch; // document/task_watch.h
+
 // A view or method that the user can choose, with one line of help.
 struct NamedChoice {
     std::string_view name;
@@ -52,6 +54,8 @@ struct RenderOptions {
     // A frame in slices of about so many milliseconds, between which it can be given up; 0: one submission.
     double sliceMs = 0.0;
     const std::atomic<bool>* interrupt = nullptr; // set: renderFrame() gives its frame up at the next slice
+    // Told how far create() and the building of pipelines are; cancelled, they end with an error.
+    TaskWatch* watch = nullptr;
     bool poisonTargets = false; // targets start as NaN, so that a pixel which no pass writes shows
 };
 

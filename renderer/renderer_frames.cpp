@@ -125,12 +125,20 @@ void Renderer::Impl::countStillFrames(const shared::FrameConstants& before) {
 bool Renderer::Impl::submitFrame(gpu::Commands& commands, FrameContext& context) {
     // Given up, a frame with moving instances would lose where they had been.
     const bool canStop = !gpuScene->hasMovingInstances();
+    // While pipelines are built every pass is a slice: the watch sees each, and each can be the last.
     if (options.sliceMs > 0.0)
-        commands.submitInSlices(options.sliceMs, canStop ? options.interrupt : nullptr);
+        commands.submitInSlices(planIsNew ? 1e-3 : options.sliceMs, canStop ? options.interrupt : nullptr);
+    int begun = 0;
+    if (planIsNew && options.watch) {
+        commands.onPass([this, &begun](const std::string&) {
+            reach("Building pipelines", 0.5 + 0.5 * std::min(1.0, double(++begun) / kUsualShaders));
+        });
+    }
     try {
         recordFrame(context, *passes, plan, world, meanFrames,
                     viewConstants(plan.view, legend, kDepthMiddle * sceneExtentM));
         commands.submitAndWait();
+        planIsNew = false;
         return true;
     } catch (const gpu::Interrupted&) {
         return false;

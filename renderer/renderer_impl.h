@@ -18,6 +18,8 @@ struct Renderer::Impl {
 
     // --- renderer_prepare.cpp
     std::optional<Error> prepare(); // once
+    // Tells options.watch; throws gpu::Interrupted when it is cancelled.
+    void reach(const char* doing, double share) const;
     std::optional<Error> prepareScene();
     std::optional<Error> preparePlan(); // again whenever the settings change
     void makeTargets();                 // again whenever the size changes as well
@@ -83,11 +85,14 @@ struct Renderer::Impl {
     std::string historyReset = "first frame"; // why there is no history; empty: there is
     std::string lastHistoryReset;             // the last one that happened
     bool interrupted = false;                 // the last frame was given up
-    bool historyBegins = true;                // the last frame found none
-    float historyExposure = 1.0f;             // that the denoiser's history was written with
-    bool meanReset = true;                    // something changed that the mean does not survive
-    bool lightsDirty = false;                 // setLights() since the last frame
-    std::uint64_t lightsEditedRun = 0;        // framesRun of the last edit of a light
+    bool planIsNew = true;                    // no frame has run to its end since the passes were made
+    int shadersCompiled = 0;                  // of these passes, for the watch
+    static constexpr double kUsualShaders = 22.0;
+    bool historyBegins = true;         // the last frame found none
+    float historyExposure = 1.0f;      // that the denoiser's history was written with
+    bool meanReset = true;             // something changed that the mean does not survive
+    bool lightsDirty = false;          // setLights() since the last frame
+    std::uint64_t lightsEditedRun = 0; // framesRun of the last edit of a light
 
     std::optional<PassOutputName> outputView; // the view is an output of a pass
     std::optional<PassOutput> passOutput;     // of the last frame

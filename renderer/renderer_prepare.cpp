@@ -2,6 +2,7 @@
 #include "renderer/renderer_impl.h"
 
 #include "renderer/document/animation.h"
+#include "renderer/document/task_watch.h"
 #include "renderer/gpu_lights.h"
 #include "renderer/lights_cpp/ltc_table.h"
 #include "renderer/noise.h"
@@ -133,7 +134,18 @@ std::filesystem::path contentDirectory() {
 }
 
 Renderer::Impl::Impl(const Scene& source, const RenderOptions& renderOptions)
-    : startMs(nowMs()), scene(source), options(renderOptions), device(deviceOptions()), resources(device) {}
+    : startMs(nowMs()), scene(source), options(renderOptions), device(deviceOptions()), resources(device) {
+    resources.onCompiled([this](const std::string&) {
+        ++shadersCompiled;
+        reach("Compiling shaders", 0.5 * std::min(1.0, double(shadersCompiled) / kUsualShaders));
+    });
+}
+
+void Renderer::Impl::reach(const char* doing, double share) const {
+    if (!options.watch) return;
+    if (options.watch->isCancelled()) throw gpu::Interrupted();
+    options.watch->reach(doing, share);
+}
 
 std::optional<Error> Renderer::Impl::prepare() {
     if (auto error = prepareScene()) return error;
@@ -177,6 +189,7 @@ std::optional<Error> Renderer::Impl::prepareScene() {
         options.settings.tracer == TracerChoice::RayQuery ||
         (options.settings.tracer == TracerChoice::Auto && device.hasRayQuery() && !device.isCpu());
     plan.tracer = rayQuery ? TraceBackEnd::RayQuery : TraceBackEnd::ComputeBvh;
+    reach("Preparing the scene", 0.0);
     Result<std::unique_ptr<GpuScene>> uploaded =
         GpuScene::create(device, scene, anchorFor(camera, worldBounds(scene)), exposureEv100, plan.tracer,
                          movingInstances(scene));
@@ -239,6 +252,8 @@ std::optional<Error> Renderer::Impl::preparePlan() {
         noise = std::move(mask.value());
     }
     makeTargets();
+    shadersCompiled = 0;
+    planIsNew = true;
     passes = std::make_unique<FramePasses>(resources, plan);
     return std::nullopt;
 }

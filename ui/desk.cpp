@@ -3,6 +3,7 @@
 
 #include "ui/file_tasks.h"
 #include "ui/light_actions.h"
+#include "ui/light_place.h"
 #include "ui/reference_image.h"
 
 #include <algorithm>
@@ -21,7 +22,8 @@ void tell(Desk& desk, const std::optional<Error>& error) {
 // The document has a new version: lights that are gone are no longer selected, and the renderer learns of it.
 void documentChanged(Desk& desk) {
     const Scene& scene = desk.session->scene();
-    std::erase_if(desk.selection, [&](std::uint64_t id) { return findLight(scene, id) < 0; });
+    for (std::vector<std::uint64_t>* lights : {&desk.selection, &desk.solo, &desk.locked})
+        std::erase_if(*lights, [&](std::uint64_t id) { return findLight(scene, id) < 0; });
     desk.renderThread->setInputTime(desk.inputMs);
     desk.renderThread->setLights(withSolo(scene, desk.solo), desk.session->version());
     const double ev100 =
@@ -43,9 +45,8 @@ std::pair<glm::dvec3, double> framedSphere(const Desk& desk) {
     std::vector<glm::dvec3> points;
     double radiusM = 0.0;
     for (const std::uint64_t id : desk.selection) {
-        const LightNode& light = scene.lights[std::size_t(findLight(scene, id))];
-        const LightDef& def = scene.lightDefs[std::size_t(light.def)];
-        points.emplace_back(scene.nodes[std::size_t(light.node)].worldFromNode[3]);
+        const LightDef& def = defOf(scene, id);
+        points.push_back(positionOf(scene, id));
         // Of a rectangle and a disk its size, of the others their radius; a point gets some surroundings.
         const bool flat = def.type == LightType::Rect || def.type == LightType::Disk;
         radiusM =
@@ -127,6 +128,11 @@ void forgetLights(Desk& desk) {
     desk.probe.reset();
     desk.viewPanel.reset();
     forgetReference(desk);
+}
+
+void showTab(Desk& desk, RightTab tab) {
+    desk.wantedTab = tab;
+    desk.panels.all = desk.panels.properties = true;
 }
 
 void setSolo(Desk& desk, std::vector<std::uint64_t> lights) {

@@ -8,6 +8,7 @@
 #include "ui/viewport.h"
 #include "ui/viewport_camera.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,12 +30,21 @@ struct ReferenceState;
 enum class Tool { Select, Move, Rotate, Scale };
 enum class GizmoSpace { World, Local, View };
 
+struct NumberRange {
+    double least, most;
+    double clamped(double value) const { return std::clamp(value, least, most); }
+};
+// Unscaled pixels.
+inline constexpr NumberRange kLeftWidth{160.0, 720.0}, kRightWidth{200.0, 720.0}, kGizmoSizePx{32.0, 400.0};
+
 struct Snapping {
     bool always = false; // without Ctrl held
     double moveM = 0.1;
     double angleDeg = 5.0;
     double scale = 0.1;
 };
+
+enum class RightTab { None, Light, View, Probe, Cost };
 
 struct PanelVisibility {
     bool all = true; // Tab
@@ -80,10 +90,12 @@ struct Desk {
 
     // --- window
     PanelVisibility panels;
-    double uiScale = 1.0;       // of fonts and spacing; 1 on a screen of 1080 lines
-    double nowS = 0.0;          // since the start
-    std::function<void()> wake; // draws the window again; from any thread
-    double inputMs = 0.0;       // steadyMs() of the newest event that this frame answers
+    bool showsHelp = false;              // every key (F1)
+    RightTab wantedTab = RightTab::None; // to be shown, whichever is open
+    double uiScale = 1.0;                // of fonts and spacing; 1 on a screen of 1080 lines
+    double nowS = 0.0;                   // since the start
+    std::function<void()> wake;          // draws the window again; from any thread
+    double inputMs = 0.0;                // steadyMs() of the newest event that this frame answers
     std::vector<Notice> notices;
     bool wantsQuit = false; // asked for; unsaved changes are asked about first
     bool quits = false;     // decided
@@ -123,7 +135,8 @@ bool redo(Desk& desk);
 
 enum class Selecting { Replace, Add, Toggle };
 void select(Desk& desk, const std::vector<std::uint64_t>& lights, Selecting how = Selecting::Replace);
-void forgetLights(Desk& desk); // all that names lights of a scene that is closed
+void forgetLights(Desk& desk);          // all that names lights of a scene that is closed
+void showTab(Desk& desk, RightTab tab); // of the right column, which is unfolded for it
 void setSolo(Desk& desk, std::vector<std::uint64_t> lights); // empty: none
 // Moves the camera so that the selected lights fill the viewport; without any, the whole scene.
 void frameSelection(Desk& desk);

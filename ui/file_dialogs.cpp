@@ -36,12 +36,6 @@ void goOn(Desk& desk) {
     if (auto action = std::exchange(desk.files->goOn, nullptr)) action(desk);
 }
 
-// What a question was asked for is given up.
-void giveUp(Desk& desk) {
-    desk.files->goOn = nullptr;
-    desk.files->opened.reset();
-}
-
 // The folder's rows; what was double-clicked or confirmed comes back as a path.
 fs::path drawFolder(Desk& desk) {
     FileTasks& files = *desk.files;
@@ -86,11 +80,6 @@ fs::path typedPath(FileTasks& files) {
     return {};
 }
 
-void saveAs(Desk& desk, const fs::path& path) {
-    if (!saveSceneAs(desk, path)) return giveUp(desk);
-    if (auto next = std::exchange(desk.files->goOn, nullptr)) next(desk);
-}
-
 void drawFileDialog(Desk& desk, const char* title, const char* action) {
     if (!beginDialog(desk, title, 560)) return;
     FileTasks& files = *desk.files;
@@ -107,7 +96,7 @@ void drawFileDialog(Desk& desk, const char* title, const char* action) {
     const bool saves = files.question == Question::SaveFileAs;
     if (cancelled || !chosen.empty()) close(desk);
     ImGui::EndPopup();
-    if (cancelled) return giveUp(desk);
+    if (cancelled) return giveUpGoingOn(desk);
     if (chosen.empty()) return;
     if (!saves) return openScene(desk, chosen);
     std::error_code ignored;
@@ -115,7 +104,7 @@ void drawFileDialog(Desk& desk, const char* title, const char* action) {
         files.replaced = chosen;
         files.question = Question::ReplaceFile;
     } else {
-        saveAs(desk, chosen);
+        saveSceneAs(desk, chosen);
     }
 }
 
@@ -146,13 +135,12 @@ void askUnsaved(Desk& desk) {
         ask(desk, "Unsaved changes", fmt::format("{} has changes that are not saved.", name),
             {{"unsaved.save", "Save"}, {"unsaved.discard", "Discard"}, {"unsaved.cancel", "Cancel"}});
     if (answer == 0) {
-        if (saveScene(desk)) return goOn(desk);
-        // The reason is shown; ChangedOnDisk asks on and goes on itself.
-        if (desk.files->question != Question::ChangedOnDisk) giveUp(desk);
+        saveScene(desk); // and goes on
     } else if (answer == 1) {
+        if (desk.session) desk.files->discardedVersion = desk.session->version();
         goOn(desk);
     } else if (answer == 2) {
-        giveUp(desk);
+        giveUpGoingOn(desk);
     }
 }
 
@@ -174,17 +162,17 @@ void askChangedOnDisk(Desk& desk) {
             fmt::format("Another program has changed {} since it was opened. Saving replaces what it wrote.",
                         desk.session ? desk.session->path().filename().string() : ""),
             {{"disk.overwrite", "Overwrite"}, {"disk.saveAs", "Save as..."}, {"disk.cancel", "Cancel"}});
-    if (answer == 0) saveScene(desk, Overwriting::Anything) ? goOn(desk) : giveUp(desk);
+    if (answer == 0) saveScene(desk, Overwriting::Anything);
     if (answer == 1) askToSaveAs(desk);
-    if (answer == 2) giveUp(desk);
+    if (answer == 2) giveUpGoingOn(desk);
 }
 
 void askReplace(Desk& desk) {
     const int answer = ask(desk, "Replace file",
                            fmt::format("{} is there already.", desk.files->replaced.filename().string()),
                            {{"replace.yes", "Replace"}, {"replace.cancel", "Cancel"}});
-    if (answer == 0) saveAs(desk, desk.files->replaced);
-    if (answer == 1) giveUp(desk);
+    if (answer == 0) saveSceneAs(desk, desk.files->replaced);
+    if (answer == 1) giveUpGoingOn(desk);
 }
 
 } // namespace

@@ -2,10 +2,13 @@
 #include "ui/file_tasks.h"
 
 #include "renderer/camera.h"
+#include "ui/light_place.h"
 
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <set>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -19,8 +22,10 @@ using namespace std::chrono_literals;
 constexpr double kLookEveryS = 1.0; // at the file's time on disk
 
 // A folder that cannot be written to leaves the scene without a journal, which is said.
-Result<OpenedScene> openOnThread(const fs::path& path, SessionOptions::Recovery recovery, bool ask) {
+Result<OpenedScene> openOnThread(const fs::path& path, SessionOptions::Recovery recovery, bool ask,
+                                 TaskWatch& watch) {
     SessionOptions options;
+    options.import.watch = &watch;
     options.journal = defaultJournalPath(path);
     options.recovery = recovery;
     OpenedScene opened;
@@ -30,17 +35,26 @@ Result<OpenedScene> openOnThread(const fs::path& path, SessionOptions::Recovery 
     fs::create_directories(options.journal.parent_path(), ignored);
     Result<std::unique_ptr<EditSession>> session = EditSession::open(path, options);
     if (!session) return Error{session.error()};
+    if (watch.isCancelled()) return Error{"cancelled"}; // the journal is free again
     opened.session = std::move(session.value());
     return opened;
 }
 
-std::future<Result<OpenedScene>> inBackground(const fs::path& path, SessionOptions::Recovery recovery,
-                                              bool ask) {
-    // Not std::async: its future would wait for the thread when it is dropped.
-    std::packaged_task<Result<OpenedScene>()> task([=] { return openOnThread(path, recovery, ask); });
-    std::future<Result<OpenedScene>> result = task.get_future();
-    std::thread(std::move(task)).detach();
-    return result;
+// Not std::async: its future would wait for the thread when it is dropped.
+template<typename Work>
+auto inBackground(const Desk& desk, Work work) {
+    using T = decltype(work(std::declval<TaskWatch&>()));
+    BackgroundTask<T> task;
+    task.watch = std::make_shared<TaskWatch>();
+    task.sinceS = desk.nowS;
+    std::packaged_task<T()> package(
+        [watch = task.watch, wake = desk.wake, work = std::move(work)]() mutable { return work(*watch); });
+    task.result = package.get_future();
+    std::thread([package = std::move(package), wake = desk.wake]() mutable {
+        package();
+        wake();
+    }).detach();
+    return task;
 }
 
 fs::file_time_type writeTime(const fs::path& path) {
@@ -50,6 +64,7 @@ fs::file_time_type writeTime(const fs::path& path) {
 }
 
 void noteFile(Desk& desk) {
+    desk.files->looking = {};
     desk.files->seenWriteTime = writeTime(desk.session->path());
     desk.files->changedOnDisk = false;
 }
@@ -58,9 +73,20 @@ Camera firstCamera(const Desk& desk, const Scene& scene) {
     return scene.cameras.empty() ? derivedCamera(scene, desk.viewport.aspect()) : scene.cameras.front();
 }
 
+// Lights that were locked when the scene was open last, by their names.
+void takeLocks(Desk& desk) {
+    const auto& all = desk.files->remembered.locked;
+    const auto found = all.find(rememberedName(desk.session->path()));
+    if (found == all.end()) return;
+    const std::set<std::string_view> names(found->second.begin(), found->second.end());
+    for (const LightNode& light : desk.session->scene().lights)
+        if (names.contains(nodeOf(desk.session->scene(), light.id).name)) desk.locked.push_back(light.id);
+}
+
 void takeSession(Desk& desk, std::unique_ptr<EditSession> session) {
     closeScene(desk);
     desk.session = std::move(session);
+    desk.files->discardedVersion = 0;
     const Scene& scene = desk.session->scene();
     const Bounds bounds = worldBounds(scene);
     const double extentM = std::max(glm::length(bounds.max - bounds.min), 1e-3);
@@ -75,6 +101,7 @@ void takeSession(Desk& desk, std::unique_ptr<EditSession> session) {
     desk.renderThread->setInputTime(0.0);
     desk.renderThread->open(scene, options, desk.camera.camera(), desk.session->version());
     rememberScene(desk.files->remembered, desk.session->path());
+    takeLocks(desk);
     noteFile(desk);
     if (const std::size_t changes = desk.session->recoveredChanges())
         notify(desk, Notice::Kind::Info, fmt::format("{} unsaved changes recovered", changes));
@@ -84,8 +111,12 @@ void takeSession(Desk& desk, std::unique_ptr<EditSession> session) {
         notify(desk, Notice::Kind::Warning, warning);
 }
 
-// Unsaved changes of the open scene are asked about before `action`.
+// Unsaved changes of the open scene are asked about before `action`; a save that runs comes first.
 void afterUnsaved(Desk& desk, std::function<void(Desk&)> action) {
+    if (desk.files->isSaving()) {
+        desk.files->goOn = [action = std::move(action)](Desk& d) { afterUnsaved(d, action); };
+        return;
+    }
     if (!desk.session || !desk.session->hasUnsavedChanges()) return action(desk);
     desk.files->goOn = std::move(action);
     desk.files->question = Question::UnsavedChanges;
@@ -103,11 +134,24 @@ void reloadScene(Desk& desk) {
     afterUnsaved(desk, [path](Desk& d) { startOpening(d, path, SessionOptions::Recovery::PutAside, false); });
 }
 
+void requestClose(Desk& desk) {
+    afterUnsaved(desk, closeScene);
+}
+
 void requestQuit(Desk& desk) {
     afterUnsaved(desk, [](Desk& d) { d.quits = true; });
 }
 
+void rememberLocks(Desk& desk) {
+    if (!desk.session) return;
+    std::vector<std::string>& names = desk.files->remembered.locked[rememberedName(desk.session->path())];
+    names.clear();
+    for (const std::uint64_t light : desk.locked)
+        names.push_back(nodeOf(desk.session->scene(), light).name);
+}
+
 void closeScene(Desk& desk) {
+    rememberLocks(desk);
     // Whoever comes here has saved or given the changes up.
     if (desk.session) desk.session->discardJournal();
     desk.session.reset();
@@ -124,41 +168,82 @@ void startOpening(Desk& desk, const fs::path& path, SessionOptions::Recovery rec
     std::error_code ignored;
     if (desk.session && fs::equivalent(path, desk.session->path(), ignored)) closeScene(desk);
     files.openingPath = path;
-    files.openingSinceS = desk.nowS;
-    files.opening = inBackground(path, recovery, ask);
+    files.opening =
+        inBackground(desk, [=](TaskWatch& watch) { return openOnThread(path, recovery, ask, watch); });
 }
 
 void cancelOpening(Desk& desk) {
     FileTasks& files = *desk.files;
-    if (files.opening.valid()) files.abandoned.push_back(std::move(files.opening));
+    if (files.isOpening()) files.opening.watch->cancel();
     files.opening = {};
 }
 
-bool saveScene(Desk& desk, Overwriting overwriting) {
-    if (!desk.session) return false;
-    if (overwriting == Overwriting::OnlyUnchanged && desk.session->changedOnDisk()) {
-        desk.files->question = Question::ChangedOnDisk;
-        return false;
+namespace {
+
+void startSaving(Desk& desk, Result<std::unique_ptr<SaveRun>> prepared) {
+    if (!prepared) {
+        notify(desk, Notice::Kind::Error, prepared.error());
+        return giveUpGoingOn(desk);
     }
-    if (const auto error = desk.session->save(overwriting)) {
-        notify(desk, Notice::Kind::Error, error->message);
-        return false;
-    }
-    noteFile(desk);
-    notify(desk, Notice::Kind::Info, "Saved " + desk.session->path().filename().string());
-    return true;
+    std::shared_ptr<SaveRun> run = std::move(prepared.value());
+    desk.files->saving = inBackground(desk, [run](TaskWatch& watch) {
+        run->run(&watch);
+        return run;
+    });
 }
 
-bool saveSceneAs(Desk& desk, const fs::path& path) {
-    if (!desk.session) return false;
-    if (const auto error = desk.session->saveAs(path)) {
-        notify(desk, Notice::Kind::Error, error->message);
-        return false;
+void takeSaved(Desk& desk) {
+    FileTasks& files = *desk.files;
+    const std::shared_ptr<SaveRun> run = files.saving.result.get();
+    files.saving = {};
+    if (!desk.session) return;
+    const fs::path before = desk.session->path();
+    desk.session->finishSave(*run);
+    switch (run->end()) {
+    case SaveEnd::Saved:
+        noteFile(desk);
+        if (desk.session->path() != before) rememberScene(files.remembered, desk.session->path());
+        notify(desk, Notice::Kind::Info, "Saved " + run->target().filename().string());
+        if (auto next = std::exchange(files.goOn, nullptr)) next(desk);
+        break;
+    case SaveEnd::ChangedOnDisk: // asks, and goes on itself
+        files.question = Question::ChangedOnDisk;
+        break;
+    case SaveEnd::Cancelled:
+        notify(desk, Notice::Kind::Info, "Saving was cancelled; the file is as it was");
+        giveUpGoingOn(desk);
+        break;
+    case SaveEnd::Failed:
+    case SaveEnd::Running:
+        notify(desk, Notice::Kind::Error, run->error());
+        giveUpGoingOn(desk);
+        break;
     }
-    noteFile(desk);
-    rememberScene(desk.files->remembered, path);
-    notify(desk, Notice::Kind::Info, "Saved " + path.filename().string());
-    return true;
+    if (const auto warning = desk.session ? desk.session->takeWarning() : std::nullopt)
+        notify(desk, Notice::Kind::Warning, warning->message);
+}
+
+} // namespace
+
+void saveScene(Desk& desk, Overwriting overwriting) {
+    if (!desk.session) return;
+    if (desk.files->isSaving()) return notify(desk, Notice::Kind::Info, "The scene is being saved");
+    startSaving(desk, desk.session->prepareSave(overwriting));
+}
+
+void saveSceneAs(Desk& desk, const fs::path& path) {
+    if (!desk.session) return;
+    if (desk.files->isSaving()) return notify(desk, Notice::Kind::Info, "The scene is being saved");
+    startSaving(desk, desk.session->prepareSaveAs(path));
+}
+
+void cancelSaving(Desk& desk) {
+    if (desk.files->isSaving()) desk.files->saving.watch->cancel();
+}
+
+void giveUpGoingOn(Desk& desk) {
+    desk.files->goOn = nullptr;
+    desk.files->opened.reset();
 }
 
 void listFolder(FileTasks& files, const fs::path& folder) {
@@ -208,7 +293,7 @@ namespace {
 
 void takeOpened(Desk& desk) {
     FileTasks& files = *desk.files;
-    Result<OpenedScene> opened = files.opening.get();
+    Result<OpenedScene> opened = files.opening.result.get();
     files.opening = {};
     if (!opened) return notify(desk, Notice::Kind::Error, opened.error());
     if (opened.value().recoverable > 0) {
@@ -218,24 +303,40 @@ void takeOpened(Desk& desk) {
     }
     // The scene that is open could be edited all the while.
     files.opened = std::move(opened.value().session);
+    if (desk.session && desk.session->version() == files.discardedVersion)
+        return takeSession(desk, std::move(files.opened));
     afterUnsaved(desk, [](Desk& d) { takeSession(d, std::move(d.files->opened)); });
+}
+
+// Now and then, in the background: the whole file has to be read where its time has changed.
+bool lookAtFile(Desk& desk) {
+    FileTasks& files = *desk.files;
+    if (files.looking.isDone()) {
+        const bool differs = files.looking.result.get();
+        files.looking = {};
+        if (!desk.session || differs == files.changedOnDisk) return false;
+        files.changedOnDisk = differs;
+        return true;
+    }
+    if (!desk.session || files.isSaving() || files.looking.isRunning() || desk.nowS < files.nextLookS)
+        return false;
+    files.nextLookS = desk.nowS + kLookEveryS;
+    const fs::file_time_type time = writeTime(desk.session->path());
+    if (time == files.seenWriteTime) return false;
+    files.seenWriteTime = time;
+    files.looking =
+        inBackground(desk, [look = desk.session->diskLook()](TaskWatch&) { return look.differs(); });
+    return false;
 }
 
 } // namespace
 
 bool pollFileTasks(Desk& desk) {
     FileTasks& files = *desk.files;
-    std::erase_if(files.abandoned,
-                  [](const auto& task) { return task.wait_for(0s) == std::future_status::ready; });
-    const bool opened = files.opening.valid() && files.opening.wait_for(0s) == std::future_status::ready;
+    const bool opened = files.opening.isDone(), saved = files.saving.isDone();
+    if (saved) takeSaved(desk);
     if (opened) takeOpened(desk);
-    if (!desk.session || desk.nowS < files.nextLookS) return opened;
-    files.nextLookS = desk.nowS + kLookEveryS;
-    const fs::file_time_type time = writeTime(desk.session->path());
-    if (time == files.seenWriteTime) return opened;
-    files.seenWriteTime = time;
-    files.changedOnDisk = desk.session->changedOnDisk();
-    return true;
+    return lookAtFile(desk) || opened || saved;
 }
 
 } // namespace kilolux

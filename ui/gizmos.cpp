@@ -45,14 +45,12 @@ std::optional<GizmoKind> kindOf(Tool tool) {
     return std::nullopt;
 }
 
-// About the middle of the lights; sizes are scaled along the lights' own axes, whatever the space.
-GizmoFrame frameOf(const Desk& desk, const std::vector<std::uint64_t>& lights, GizmoKind kind) {
-    const Scene& scene = desk.session->scene();
+// Sizes are scaled along the lights' own axes, whatever the space.
+GizmoFrame frameOf(const Desk& desk, const GizmoPlace& place, GizmoKind kind) {
     GizmoFrame frame;
-    for (const std::uint64_t light : lights)
-        frame.originWs += positionOf(scene, light) / double(lights.size());
+    frame.originWs = place.originWs;
     if (kind == GizmoKind::Scale || desk.space == GizmoSpace::Local) {
-        frame.axes = axesOf(scene, lights.front());
+        frame.axes = place.ownAxes;
     } else if (desk.space == GizmoSpace::View) {
         frame.axes = glm::dmat3(desk.viewport.camera.worldFromCamera);
     }
@@ -65,7 +63,7 @@ void beginDrag(Desk& desk, GizmoState& state, GizmoKind kind, const GizmoFrame& 
     endDrag(desk); // whatever was open before is another step
     state.drag.emplace(kind, state.hot, frame, desk.viewport, glm::dvec2(press.x, press.y), lengthPx);
     state.dragStart = desk.session->scene();
-    state.dragged = unlockedSelection(desk);
+    state.dragged = gizmoPlace(desk).lights;
     state.dragName = fmt::format("{} {}", kVerbs[int(kind)], countedLights(state.dragged.size()));
     state.dragKey = fmt::format("gizmo {}", ++state.drags);
     state.dragLabel.clear();
@@ -212,11 +210,19 @@ GizmoState& viewportTools(Desk& desk) {
     return *desk.gizmo;
 }
 
-std::vector<std::uint64_t> unlockedSelection(const Desk& desk) {
-    std::vector<std::uint64_t> lights;
+const GizmoPlace& gizmoPlace(const Desk& desk) {
+    GizmoPlace& place = desk.gizmo->place;
+    const bool same = place.version == desk.session->version() && place.selection == desk.selection &&
+                      place.locked == desk.locked;
+    if (same) return place;
+    place = {desk.session->version(), desk.selection, desk.locked, {}};
     std::set_difference(desk.selection.begin(), desk.selection.end(), desk.locked.begin(), desk.locked.end(),
-                        std::back_inserter(lights));
-    return lights;
+                        std::back_inserter(place.lights));
+    const Scene& scene = desk.session->scene();
+    for (const std::uint64_t light : place.lights)
+        place.originWs += positionOf(scene, light) / double(place.lights.size());
+    if (!place.lights.empty()) place.ownAxes = axesOf(scene, place.lights.front());
+    return place;
 }
 
 bool cancelGizmoDrag(Desk& desk) {
@@ -231,10 +237,9 @@ bool cancelGizmoDrag(Desk& desk) {
 void drawGizmos(Desk& desk, ImDrawList& canvas) {
     GizmoState& state = viewportTools(desk);
     const std::optional<GizmoKind> kind = kindOf(desk.tool);
-    const std::vector<std::uint64_t> lights = unlockedSelection(desk);
     state.hot = GizmoHandle::None;
-    if (state.drag && lights.empty()) cancelGizmoDrag(desk); // undone while it was dragged
-    if (!kind || lights.empty()) return;
+    if (state.drag && gizmoPlace(desk).lights.empty()) cancelGizmoDrag(desk); // undone while it was dragged
+    if (!kind || gizmoPlace(desk).lights.empty()) return;
     const double lengthPx = desk.gizmoSizePx * desk.uiScale;
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 mouse(io.MousePos.x, io.MousePos.y);
@@ -242,7 +247,7 @@ void drawGizmos(Desk& desk, ImDrawList& canvas) {
         continueDrag(desk, state);
     } else if (!io.WantCaptureMouse && !desk.pointerTaken && !state.pressPx && !state.placing &&
                desk.viewport.rect.contains(mouse)) {
-        const GizmoFrame frame = frameOf(desk, lights, *kind);
+        const GizmoFrame frame = frameOf(desk, gizmoPlace(desk), *kind);
         // At the press: what is clicked is where the pointer was then.
         const bool pressed = ImGui::IsMouseClicked(0) && !io.KeyAlt;
         const glm::dvec2 at = pressed ? glm::dvec2(io.MouseClickedPos[0].x, io.MouseClickedPos[0].y) : mouse;
@@ -253,7 +258,8 @@ void drawGizmos(Desk& desk, ImDrawList& canvas) {
         }
     }
     const GizmoHandle active = state.drag ? state.drag->handle() : GizmoHandle::None;
-    const GizmoFrame frame = frameOf(desk, lights, *kind);
+    if (gizmoPlace(desk).lights.empty()) return; // an edit of the drag may have taken them
+    const GizmoFrame frame = frameOf(desk, gizmoPlace(desk), *kind);
     if (desk.viewport.depthM(frame.originWs) < desk.viewport.camera.znearM) return;
     const Pen pen{canvas, desk.viewport, frame, lengthPx, desk.uiScale};
     for (const GizmoHandle handle : kHandles) {
@@ -263,19 +269,19 @@ void drawGizmos(Desk& desk, ImDrawList& canvas) {
     if (state.drag) drawLabel(desk, canvas, state.dragLabel);
 }
 
-std::string gizmoState(const Desk& desk) {
+nlohmann::json gizmoState(const Desk& desk) {
     nlohmann::json json = nlohmann::json::object();
-    if (!desk.gizmo || !desk.session) return json.dump();
+    if (!desk.gizmo || !desk.session) return json;
     const GizmoState& state = *desk.gizmo;
     json["dragging"] = state.drag.has_value();
     json["label"] = state.dragLabel;
     json["hot"] = int(state.hot);
     json["outlines"] = state.outlines.outlines().size();
     const std::optional<GizmoKind> kind = kindOf(desk.tool);
-    const std::vector<std::uint64_t> lights = unlockedSelection(desk);
-    if (!kind || lights.empty()) return json.dump();
+    const GizmoPlace& place = gizmoPlace(desk);
+    if (!kind || place.lights.empty()) return json;
     // Where a test finds each handle.
-    const GizmoFrame frame = frameOf(desk, lights, *kind);
+    const GizmoFrame frame = frameOf(desk, place, *kind);
     const double lengthM = desk.gizmoSizePx * desk.uiScale * desk.viewport.metresPerPixel(frame.originWs);
     const auto put = [&](const char* name, const glm::dvec3& point) {
         if (const auto px = desk.viewport.project(point)) json["handles"][name] = {px->x, px->y};
@@ -293,7 +299,7 @@ std::string gizmoState(const Desk& desk) {
         }
     }
     put("center", frame.originWs);
-    return json.dump();
+    return json;
 }
 
 } // namespace kilolux

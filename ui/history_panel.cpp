@@ -15,7 +15,8 @@ void drawHistoryPanel(Desk& desk) {
     if (ImGui::Selectable("##history", false, 0, {0, ImGui::GetFrameHeight()}))
         state.showsHistory = !state.showsHistory;
     mark(desk, "history.fold");
-    const std::string title = fmt::format("{}  History", state.showsHistory ? "\uf0d7" : "\uf0da");
+    const std::string title =
+        fmt::format("{}  History", state.showsHistory ? theme::kUnfolded : theme::kFolded);
     const std::string count = std::to_string(history.steps());
     const float top = from.y + ImGui::GetStyle().FramePadding.y, width = ImGui::GetContentRegionAvail().x;
     ImDrawList& canvas = *ImGui::GetWindowDrawList();

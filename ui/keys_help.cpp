@@ -1,6 +1,5 @@
 // The overlay with every key (F1), from the table of keys.h.
 #include "ui/keys.h"
-#include "ui/light_list_state.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -27,8 +26,7 @@ void drawGroup(Desk& desk, KeyGroup group) {
 } // namespace
 
 void drawKeysHelp(Desk& desk) {
-    LightListState& state = lightListOf(desk);
-    if (!state.showsHelp) return;
+    if (!desk.showsHelp) return;
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * window.x, 0.5f * window.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x - px(desk, 32), window.y - px(desk, 32)});
@@ -48,8 +46,7 @@ void drawKeysHelp(Desk& desk) {
     for (const KeyGroup group : {KeyGroup::Lights, KeyGroup::Views, KeyGroup::Window})
         drawGroup(desk, group);
     ImGui::EndGroup();
-    const bool outside = ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered();
-    if (outside || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) state.showsHelp = false;
+    if (ImGui::IsMouseClicked(0) && !ImGui::IsWindowHovered()) desk.showsHelp = false;
     ImGui::End();
     ImGui::PopStyleVar();
     ImGui::PopStyleColor();

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <imgui.h>
+#include <utility>
 
 namespace kilolux {
 
@@ -56,8 +57,10 @@ double drawEdge(Desk& desk, const char* name, double x, const ViewportRect& colu
 
 void drawRightColumn(Desk& desk) {
     if (!ImGui::BeginTabBar("right tabs")) return;
-    const auto tab = [&](const char* name, const char* place, void (*draw)(Desk&)) {
-        const bool open = ImGui::BeginTabItem(name);
+    const RightTab wanted = std::exchange(desk.wantedTab, RightTab::None);
+    const auto tab = [&](RightTab which, const char* name, const char* place, void (*draw)(Desk&)) {
+        const ImGuiTabItemFlags flags = wanted == which ? ImGuiTabItemFlags_SetSelected : 0;
+        const bool open = ImGui::BeginTabItem(name, nullptr, flags);
         mark(desk, place);
         if (!open) return;
         ImGui::BeginChild(name);
@@ -65,10 +68,10 @@ void drawRightColumn(Desk& desk) {
         ImGui::EndChild();
         ImGui::EndTabItem();
     };
-    tab("Light", "tab.light", drawProperties);
-    tab("View", "tab.view", drawViewPanel);
-    tab("Probe", "tab.probe", drawProbePanel);
-    tab("Cost", "tab.cost", drawStatisticsPanel);
+    tab(RightTab::Light, "Light", "tab.light", drawProperties);
+    tab(RightTab::View, "View", "tab.view", drawViewPanel);
+    tab(RightTab::Probe, "Probe", "tab.probe", drawProbePanel);
+    tab(RightTab::Cost, "Cost", "tab.cost", drawStatisticsPanel);
     ImGui::EndTabBar();
 }
 
@@ -98,79 +101,6 @@ void drawOverlays(Desk& desk, const ViewportRect& rect) {
         pickLights(desk, canvas);
     }
     canvas.PopClipRect();
-}
-
-void drawNotices(Desk& desk, const ViewportRect& rect) {
-    std::erase_if(desk.notices, [&](const Notice& notice) {
-        return notice.kind != Notice::Kind::Error && notice.shownUntilS < desk.nowS;
-    });
-    if (desk.notices.empty()) return;
-    const float width = std::min(px(desk, 440), float(rect.width) - px(desk, 16));
-    if (width < px(desk, 64)) return;
-    ImGui::SetNextWindowPos({float(rect.x) + px(desk, 8), float(rect.y + rect.height) - px(desk, 8)},
-                            ImGuiCond_Always, {0, 1});
-    ImGui::SetNextWindowSize({width, 0});
-    ImGui::SetNextWindowBgAlpha(0.92f);
-    ImGui::Begin("notices", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
-    std::size_t closed = desk.notices.size();
-    for (std::size_t i = 0; i < desk.notices.size(); ++i) {
-        const Notice& notice = desk.notices[i];
-        const bool error = notice.kind == Notice::Kind::Error, plain = notice.kind == Notice::Kind::Info;
-        ImGui::PushID(int(i));
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextColored(ImColor(error   ? theme::kError
-                                   : plain ? theme::kDim
-                                           : theme::kWarning),
-                           "%s", plain ? theme::kInfo : theme::kWarn);
-        ImGui::SameLine();
-        ImGui::PushTextWrapPos(ImGui::GetWindowContentRegionMax().x - px(desk, 32));
-        ImGui::TextUnformatted(notice.text.c_str());
-        ImGui::PopTextWrapPos();
-        if (error) {
-            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - px(desk, 24));
-            if (iconButton(desk, "notice.close", theme::kClose, "Close")) closed = i;
-        }
-        ImGui::PopID();
-    }
-    ImGui::End();
-    if (closed < desk.notices.size()) desk.notices.erase(desk.notices.begin() + std::ptrdiff_t(closed));
-}
-
-// What takes long, with the way out of it.
-void drawActivity(Desk& desk, const ViewportRect& rect) {
-    FileTasks& files = *desk.files;
-    const std::string rendering = desk.renderThread->activity();
-    if (!files.isOpening() && rendering.empty()) return;
-    const double sinceS = desk.nowS - files.openingSinceS;
-    constexpr double kShowAfterS = 0.3; // what is over by then needs no words
-    if (files.isOpening() && sinceS < kShowAfterS) return;
-    ImGui::SetNextWindowPos({float(rect.center().x), float(rect.y) + px(desk, 16)}, ImGuiCond_Always,
-                            {0.5f, 0});
-    ImGui::SetNextWindowBgAlpha(0.92f);
-    ImGui::Begin("activity", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
-    const std::string text =
-        files.isOpening() ? "Opening " + files.openingPath.filename().string() : rendering;
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::SameLine();
-    // Its length is not known: a bar that wanders says that work goes on.
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const float width = px(desk, 96), height = px(desk, 4), top = corner.y + 0.5f * ImGui::GetFrameHeight();
-    ImDrawList& canvas = *ImGui::GetWindowDrawList();
-    canvas.AddRectFilled({corner.x, top}, {corner.x + width, top + height}, theme::kField, height);
-    const float at = 0.5f - 0.5f * std::cos(float(desk.nowS) * 2.5f), part = 0.3f * width;
-    canvas.AddRectFilled({corner.x + at * (width - part), top},
-                         {corner.x + at * (width - part) + part, top + height}, theme::kAccent, height);
-    ImGui::Dummy({width, ImGui::GetFrameHeight()});
-    if (files.isOpening()) {
-        ImGui::SameLine();
-        if (textButton(desk, "activity.cancel", "Cancel")) cancelOpening(desk);
-    }
-    ImGui::End();
 }
 
 } // namespace
@@ -224,10 +154,10 @@ void drawLayout(Desk& desk, const Layout& layout) {
         remembered.leftWidth += drawEdge(desk, "edge.left", layout.left.width, layout.left);
     if (layout.right.width > 0)
         remembered.rightWidth -= drawEdge(desk, "edge.right", layout.right.x, layout.right);
-    remembered.leftWidth = std::clamp(remembered.leftWidth, 160.0, 720.0);
-    remembered.rightWidth = std::clamp(remembered.rightWidth, 200.0, 720.0);
+    remembered.leftWidth = kLeftWidth.clamped(remembered.leftWidth);
+    remembered.rightWidth = kRightWidth.clamped(remembered.rightWidth);
     drawNotices(desk, layout.viewport);
-    drawActivity(desk, layout.viewport);
+    drawActivities(desk, layout.viewport);
     drawKeysHelp(desk);
     drawFileDialogs(desk);
 }

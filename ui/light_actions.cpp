@@ -1,6 +1,7 @@
 #include "ui/light_actions.h"
 
 #include "ui/change_builder.h"
+#include "ui/light_place.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -121,9 +122,7 @@ Result<Edits> duplicateLights(const Scene& scene, EditIds& ids, std::span<const 
     for (const std::uint64_t light : lights) {
         builder.take(duplicateLight(builder.scene(), ids, light));
         const std::uint64_t copy = builder.scene().lights.read().back().id; // ids only grow
-        const LightNode& original = scene.lights[std::size_t(findLight(scene, light))];
-        builder.set(EditTarget::Light, copy, "name",
-                    names.take(scene.nodes[std::size_t(original.node)].name));
+        builder.set(EditTarget::Light, copy, "name", names.take(nodeOf(scene, light).name));
     }
     return builder.finish();
 }
@@ -146,9 +145,8 @@ Result<Edits> deleteLights(const Scene& scene, std::span<const std::uint64_t> li
 }
 
 bool allMuted(const Scene& scene, std::span<const std::uint64_t> lights) {
-    return std::all_of(lights.begin(), lights.end(), [&](std::uint64_t light) {
-        return scene.lights[std::size_t(findLight(scene, light))].muted;
-    });
+    return std::all_of(lights.begin(), lights.end(),
+                       [&](std::uint64_t light) { return lightOf(scene, light).muted; });
 }
 
 Result<Edits> muteLights(const Scene& scene, std::span<const std::uint64_t> lights, bool muted) {
@@ -184,6 +182,13 @@ Result<Edits> assignGroup(const Scene& scene, std::span<const std::uint64_t> lig
     ChangeBuilder builder(scene);
     for (const std::uint64_t light : lights)
         builder.set(EditTarget::Light, light, "group", group);
+    return builder.finish();
+}
+
+Result<Edits> deleteGroups(const Scene& scene, std::span<const std::uint64_t> groups) {
+    ChangeBuilder builder(scene);
+    for (const std::uint64_t group : groups)
+        builder.take(deleteGroup(builder.scene(), group));
     return builder.finish();
 }
 

@@ -59,6 +59,8 @@ Result<Edits> makeLightsUnique(const Scene& scene, std::span<const std::uint64_t
 Result<Edits> groupLights(const Scene& scene, EditIds& ids, std::span<const std::uint64_t> lights,
                           std::string base);
 Result<Edits> assignGroup(const Scene& scene, std::span<const std::uint64_t> lights, std::uint64_t group);
+// Their lights stay, in no group.
+Result<Edits> deleteGroups(const Scene& scene, std::span<const std::uint64_t> groups);
 std::vector<std::uint64_t> membersOf(const Scene& scene, std::uint64_t group); // sorted
 
 // --- lights as text: one JSON object a line, which another window can take as well

@@ -4,11 +4,13 @@
 #include "ui/light_fields.h"
 #include "ui/light_place.h"
 #include "ui/scene_ray.h"
+#include "ui/text_case.h"
 #include "ui/viewport_tools.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <imgui.h>
+#include <set>
 
 namespace kilolux {
 
@@ -54,9 +56,8 @@ void addLightAtPixel(Desk& desk, LightType type, glm::dvec2 px) {
     // A sun shines down, whatever it was clicked on.
     if (type == LightType::Directional) place.dirWs = glm::normalize(glm::dvec3(-0.4, -1.0, -0.3));
     const Edits edits = addLightAt(scene, desk.session->ids(), type, place);
-    std::string name(typeName(type));
-    name[0] = char(name[0] + 32); // 'Add sphere light'
-    if (makeLights(desk, edits, "Add " + name) && desk.tool == Tool::Select) desk.tool = Tool::Move;
+    if (makeLights(desk, edits, "Add " + withinSentence(typeName(type))) && desk.tool == Tool::Select)
+        desk.tool = Tool::Move;
 }
 
 void duplicateSelection(Desk& desk) {
@@ -110,23 +111,20 @@ void dissolveGroup(Desk& desk, std::uint64_t group) {
     const Scene& scene = desk.session->scene();
     const int at = findGroup(scene, group);
     if (at < 0) return;
-    applyEdits(desk, deleteGroup(scene, group),
+    applyEdits(desk, deleteGroups(scene, {&group, 1}),
                fmt::format("Dissolve '{}'", scene.groups[std::size_t(at)].name));
 }
 
 void ungroupSelection(Desk& desk) {
     if (!hasSelection(desk, "dissolve its group")) return;
-    std::vector<std::uint64_t> groups;
-    for (const std::uint64_t id : desk.selection) {
-        const Scene& scene = desk.session->scene();
-        const std::uint64_t group = scene.lights[std::size_t(findLight(scene, id))].group;
-        if (group != 0) groups.push_back(group);
-    }
-    std::sort(groups.begin(), groups.end());
-    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
-    if (groups.empty()) notify(desk, Notice::Kind::Info, "The selected lights are in no group");
-    for (const std::uint64_t group : groups)
-        dissolveGroup(desk, group);
+    const Scene& scene = desk.session->scene();
+    std::set<std::uint64_t> groups;
+    for (const std::uint64_t id : desk.selection)
+        if (const std::uint64_t group = lightOf(scene, id).group; group != 0) groups.insert(group);
+    if (groups.empty()) return notify(desk, Notice::Kind::Info, "The selected lights are in no group");
+    if (groups.size() == 1) return dissolveGroup(desk, *groups.begin());
+    const std::vector<std::uint64_t> all(groups.begin(), groups.end());
+    applyEdits(desk, deleteGroups(scene, all), fmt::format("Dissolve {} groups", all.size()));
 }
 
 void renameLights(Desk& desk, const std::vector<std::uint64_t>& lights, const std::string& name) {

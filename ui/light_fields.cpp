@@ -1,6 +1,7 @@
 #include "ui/light_fields.h"
 
 #include "ui/change_builder.h"
+#include "ui/light_place.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -48,10 +49,6 @@ constexpr LightField kFields[] = {
      "Shadow rays end this far before the light, past its fixture"},
 };
 
-const LightDef& defOf(const Scene& scene, std::uint64_t light) {
-    return scene.lightDefs[std::size_t(scene.lights[std::size_t(findLight(scene, light))].def)];
-}
-
 struct Target {
     std::uint64_t light;
     Sharing sharing;
@@ -62,9 +59,7 @@ std::vector<Target> targetsOf(const Scene& scene, std::span<const std::uint64_t>
     std::vector<int> users(scene.lightDefs.size(), 0), chosen(scene.lightDefs.size(), 0);
     for (const LightNode& light : scene.lights)
         ++users[std::size_t(light.def)];
-    const auto indexOf = [&](std::uint64_t light) {
-        return std::size_t(scene.lights[std::size_t(findLight(scene, light))].def);
-    };
+    const auto indexOf = [&](std::uint64_t light) { return std::size_t(lightOf(scene, light).def); };
     for (const std::uint64_t light : lights)
         ++chosen[indexOf(light)];
     std::vector<bool> done(scene.lightDefs.size(), false);
@@ -143,8 +138,7 @@ CommonValue commonValue(const Scene& scene, std::span<const std::uint64_t> light
     if (!field || lights.empty()) return common;
     const auto valueOf = [&](std::uint64_t light) {
         const bool ofDefinition = field->target == EditTarget::Definition;
-        const LightNode& node = scene.lights[std::size_t(findLight(scene, light))];
-        return field->get(scene, ofDefinition ? std::uint64_t(node.def) : light);
+        return field->get(scene, ofDefinition ? std::uint64_t(lightOf(scene, light).def) : light);
     };
     common.value = valueOf(lights[0]);
     common.mixed = std::any_of(lights.begin() + 1, lights.end(),
@@ -223,7 +217,7 @@ Result<Edits> editsForName(const Scene& scene, std::span<const std::uint64_t> li
 int othersSharing(const Scene& scene, std::span<const std::uint64_t> lights) {
     std::vector<bool> theirs(scene.lightDefs.size(), false);
     for (const std::uint64_t light : lights)
-        theirs[std::size_t(scene.lights[std::size_t(findLight(scene, light))].def)] = true;
+        theirs[std::size_t(lightOf(scene, light).def)] = true;
     const auto others = std::count_if(scene.lights.begin(), scene.lights.end(), [&](const LightNode& light) {
         return theirs[std::size_t(light.def)] && !std::binary_search(lights.begin(), lights.end(), light.id);
     });

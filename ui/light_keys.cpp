@@ -3,6 +3,7 @@
 #include "ui/light_commands.h"
 #include "ui/light_list_state.h"
 #include "ui/panels.h"
+#include "ui/probe_panel.h"
 #include "ui/properties_state.h"
 #include "ui/viewport_tools.h"
 #include "ui/widgets.h"
@@ -14,7 +15,7 @@ namespace kilolux {
 
 namespace {
 
-constexpr double kGizmoStep = 1.25, kLeastGizmoPx = 32.0, kMostGizmoPx = 400.0; // as settings_store keeps it
+constexpr double kGizmoStep = 1.25;
 
 void selectAll(Desk& desk) {
     std::vector<std::uint64_t> all;
@@ -26,7 +27,7 @@ void selectAll(Desk& desk) {
 // The innermost thing that can be given up.
 void cancel(Desk& desk) {
     GizmoState& state = viewportTools(desk);
-    if (cancelGizmoDrag(desk) || cancelPropertyDrag(desk)) return;
+    if (cancelGizmoDrag(desk) || cancelPropertyDrag(desk) || cancelProbePick(desk)) return;
     if (state.pressPx || state.placing || state.addMenuPx) {
         state.pressPx.reset();
         state.placing.reset();
@@ -55,10 +56,10 @@ void act(Desk& desk, KeyAction action) {
         desk.space = desk.space == GizmoSpace::World ? GizmoSpace::Local : GizmoSpace::World;
         break;
     case KeyAction::LargerGizmo:
-        desk.gizmoSizePx = std::min(desk.gizmoSizePx * kGizmoStep, kMostGizmoPx);
+        desk.gizmoSizePx = std::min(desk.gizmoSizePx * kGizmoStep, kGizmoSizePx.most);
         break;
     case KeyAction::SmallerGizmo:
-        desk.gizmoSizePx = std::max(desk.gizmoSizePx / kGizmoStep, kLeastGizmoPx);
+        desk.gizmoSizePx = std::max(desk.gizmoSizePx / kGizmoStep, kGizmoSizePx.least);
         break;
     case KeyAction::Cancel:
         cancel(desk);
@@ -104,9 +105,7 @@ void act(Desk& desk, KeyAction action) {
     case KeyAction::Rename:
         if (!desk.selection.empty()) beginRename(desk, LightRow::Kind::Light, desk.selection.front());
         break;
-    case KeyAction::Help:
-        lightListOf(desk).showsHelp = !lightListOf(desk).showsHelp;
-        break;
+    case KeyAction::Help: // of the window: it is there without a scene
     case KeyAction::None:
         break;
     }

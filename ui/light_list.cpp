@@ -6,6 +6,7 @@
 #include "ui/light_icon.h"
 #include "ui/light_list_state.h"
 #include "ui/light_menu.h"
+#include "ui/light_place.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 #include "ui/value_entry.h"
@@ -22,11 +23,6 @@ namespace kilolux {
 
 namespace {
 
-constexpr const char* kLock = "\uf023";
-constexpr const char* kUnlock = "\uf09c";
-constexpr const char* kSort = "\uf0dc";
-constexpr const char* kFolded = "\uf0da";
-constexpr const char* kUnfolded = "\uf0d7";
 constexpr double kToggleUnits = 20.0, kValueUnits = 76.0;
 
 // --- the head of the list
@@ -48,7 +44,8 @@ void drawTypeFilter(Desk& desk, LightListState& state) {
 
 void drawOrder(Desk& desk, LightListState& state) {
     const bool sorted = state.query.order != LightOrder::File || state.query.descending;
-    if (iconButton(desk, "lights.order", kSort, "Order", sorted ? ButtonLook::Active : ButtonLook::Plain))
+    if (iconButton(desk, "lights.order", theme::kSort, "Order",
+                   sorted ? ButtonLook::Active : ButtonLook::Plain))
         ImGui::OpenPopup("order");
     if (!ImGui::BeginPopup("order")) return;
     closePopupOnEscape();
@@ -224,8 +221,8 @@ void drawLightRow(Desk& desk, LightListState& state, int index) {
         toggleMute(desk, meant(desk, row.id));
     if (rowSwitch(desk, "solo." + id, theme::kSolo, "Solo (Shift+S)", at(1), solo, space.hot))
         toggleSolo(desk, meant(desk, row.id));
-    if (rowSwitch(desk, "lock." + id, locked ? kLock : kUnlock, "Lock: not to be picked or dragged", at(2),
-                  locked, space.hot))
+    if (rowSwitch(desk, "lock." + id, locked ? theme::kLock : theme::kUnlock,
+                  "Lock: not to be picked or dragged", at(2), locked, space.hot))
         toggleLock(desk, meant(desk, row.id));
     if (renamed) renameLights(desk, {row.id}, state.renameText);
 }
@@ -250,7 +247,7 @@ void drawGroupRow(Desk& desk, LightListState& state, int index) {
     mark(desk, "fold." + std::to_string(row.id));
     const float top = space.from.y + ImGui::GetStyle().FramePadding.y;
     ImGui::GetWindowDrawList()->AddText({space.from.x + px(desk, 4), top}, theme::kDim,
-                                        isFolded ? kFolded : kUnfolded);
+                                        isFolded ? theme::kFolded : theme::kUnfolded);
     const float switches = space.from.x + space.width - toggle;
     const float x = space.from.x + px(desk, 24);
     std::string masters = std::to_string(row.members);
@@ -333,8 +330,7 @@ void beginRename(Desk& desk, LightRow::Kind kind, std::uint64_t id) {
     if (kind == LightRow::Kind::Group) {
         state.renameText = scene.groups[std::size_t(findGroup(scene, id))].name;
     } else {
-        state.renameText =
-            scene.nodes[std::size_t(scene.lights[std::size_t(findLight(scene, id))].node)].name;
+        state.renameText = nodeOf(scene, id).name;
     }
 }
 
@@ -354,9 +350,9 @@ void drawLightList(Desk& desk) {
     drawHistoryPanel(desk);
 }
 
-std::string lightListState(const Desk& desk) {
+nlohmann::json lightListState(const Desk& desk) {
     nlohmann::json json = nlohmann::json::object();
-    if (!desk.lightList) return json.dump();
+    if (!desk.lightList) return json;
     const LightListState& state = *desk.lightList;
     json["shown"] = state.model.shownLights();
     json["rows"] = state.model.rows().size();
@@ -364,7 +360,7 @@ std::string lightListState(const Desk& desk) {
     json["renaming"] = state.renaming;
     json["solo"] = desk.solo;
     json["locked"] = desk.locked;
-    return json.dump();
+    return json;
 }
 
 } // namespace kilolux

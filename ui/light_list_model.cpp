@@ -3,6 +3,7 @@
 #include "renderer/document/edit.h"
 #include "renderer/document/light_units.h"
 #include "renderer/document/light_words.h"
+#include "ui/text_case.h"
 
 #include <algorithm>
 
@@ -12,14 +13,6 @@ namespace {
 
 bool isDigit(char c) {
     return c >= '0' && c <= '9';
-}
-
-// Of ASCII letters; others are compared as they stand.
-std::string lowered(std::string_view text) {
-    std::string result(text);
-    for (char& c : result)
-        if (c >= 'A' && c <= 'Z') c = char(c + 32);
-    return result;
 }
 
 std::vector<std::string> wordsOf(std::string_view text) {

@@ -18,7 +18,6 @@ struct LightListState {
     std::string renameText;
     bool renameBegins = false; // the field has yet to take the keyboard
     bool showsHistory = false;
-    bool showsHelp = false; // the overlay with all keys
 };
 
 LightListState& lightListOf(Desk& desk); // made on first use

@@ -100,8 +100,7 @@ void drawShapings(const Desk& desk, ImDrawList& canvas) {
     const Scene& scene = desk.session->scene();
     std::size_t drawn = 0;
     for (const std::uint64_t id : desk.selection) {
-        const LightNode& light = scene.lights[std::size_t(findLight(scene, id))];
-        const LightDef& def = scene.lightDefs[std::size_t(light.def)];
+        const LightDef& def = defOf(scene, id);
         if (def.type != LightType::Spot && def.type != LightType::Rect) continue;
         if (++drawn > kMostShapings) return;
         const glm::dvec3 center = positionOf(scene, id);
@@ -129,12 +128,22 @@ void drawName(Desk& desk, ImDrawList& canvas, const LightOutline& outline) {
     canvas.AddText(at, theme::kText, name.c_str());
 }
 
+void bringUpToDate(const Desk& desk, GizmoState& state) {
+    const bool same = state.outlinesVersion == desk.session->version() &&
+                      state.outlinesScale == desk.uiScale && state.outlinesViewport.showsAs(desk.viewport);
+    if (same) return;
+    state.outlines.build(desk.session->scene(), desk.viewport, desk.uiScale);
+    state.outlinesVersion = desk.session->version();
+    state.outlinesScale = desk.uiScale;
+    state.outlinesViewport = desk.viewport;
+}
+
 } // namespace
 
 void drawLightOutlines(Desk& desk, ImDrawList& canvas) {
     GizmoState& state = viewportTools(desk);
     const Scene& scene = desk.session->scene();
-    state.outlines.build(scene, desk.viewport, desk.uiScale);
+    bringUpToDate(desk, state);
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 mouse(io.MousePos.x, io.MousePos.y);
     state.hovered = 0;

@@ -61,8 +61,16 @@ double wrapped(double angle, double near) {
 
 } // namespace
 
+const LightNode& lightOf(const Scene& scene, std::uint64_t light) {
+    return scene.lights[std::size_t(findLight(scene, light))];
+}
+
+const LightDef& defOf(const Scene& scene, std::uint64_t light) {
+    return scene.lightDefs[std::size_t(lightOf(scene, light).def)];
+}
+
 const Node& nodeOf(const Scene& scene, std::uint64_t light) {
-    return scene.nodes[std::size_t(scene.lights[std::size_t(findLight(scene, light))].node)];
+    return scene.nodes[std::size_t(lightOf(scene, light).node)];
 }
 
 glm::dvec3 positionOf(const Scene& scene, std::uint64_t light) {
@@ -104,7 +112,7 @@ glm::dvec3 eulerFrom(const glm::dquat& rotation, const glm::dvec3& near) {
 std::vector<std::uint64_t> carriers(const Scene& scene, std::span<const std::uint64_t> lights) {
     std::vector<bool> selected(scene.nodes.size(), false);
     for (const std::uint64_t light : lights)
-        selected[std::size_t(scene.lights[std::size_t(findLight(scene, light))].node)] = true;
+        selected[std::size_t(lightOf(scene, light).node)] = true;
     std::vector<std::uint64_t> result;
     for (const std::uint64_t light : lights) {
         int parent = nodeOf(scene, light).parent;

@@ -9,6 +9,9 @@
 
 namespace kilolux {
 
+// A light by its id, which must be there; its definition; its node.
+const LightNode& lightOf(const Scene& scene, std::uint64_t light);
+const LightDef& defOf(const Scene& scene, std::uint64_t light);
 const Node& nodeOf(const Scene& scene, std::uint64_t light);
 glm::dvec3 positionOf(const Scene& scene, std::uint64_t light);
 

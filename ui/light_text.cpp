@@ -111,8 +111,8 @@ std::string lightsToText(const Scene& scene, std::span<const std::uint64_t> ligh
     std::map<int, std::size_t> lineOfDef;
     std::size_t line = 0;
     for (const std::uint64_t id : lights) {
-        const LightNode& light = scene.lights[std::size_t(findLight(scene, id))];
-        text += lineOf(scene, light, lineOfDef, line++).dump(-1, ' ', false, Json::error_handler_t::replace) +
+        text += lineOf(scene, lightOf(scene, id), lineOfDef, line++)
+                    .dump(-1, ' ', false, Json::error_handler_t::replace) +
                 '\n';
     }
     return text;

@@ -1,5 +1,6 @@
 #include "ui/live_reference.h"
 
+#include "renderer/document/task_watch.h"
 #include "renderer/measure/flip.h"
 #include "renderer/measure/metrics.h"
 
@@ -13,6 +14,7 @@ namespace kilolux {
 namespace {
 
 constexpr int kLowestPriority = 19;
+constexpr double kSliceMs = 15.0; // between two of which a frame can be given up
 
 std::vector<float> unitValues(const std::vector<std::uint8_t>& bytes) {
     std::vector<float> values;
@@ -64,6 +66,8 @@ struct LiveReference::Impl {
     std::uint64_t shownKey = 0;
     bool resting = false, stopping = false, givenUp = false;
     State state;
+    TaskWatch watch; // of what is prepared
+    std::atomic<bool> interrupt = false;
 
     // --- of the thread
     std::function<void()> wake;
@@ -73,6 +77,11 @@ struct LiveReference::Impl {
     std::thread thread;
 
     void loop();
+    // Under the mutex: nobody waits any more for what the thread does.
+    void giveUp() {
+        interrupt = true;
+        watch.cancel();
+    }
     void prepare(ReferenceView view);
     void renderOne();
     void measure(const Picture& picture, std::uint64_t key);
@@ -87,19 +96,29 @@ struct LiveReference::Impl {
 };
 
 void LiveReference::Impl::prepare(ReferenceView view) {
-    tell([&](State& s) { s = State{view.key, 0, true, "", nullptr}; });
     const bool same = renderer && sharesGeometry(scene, view.scene) && options.width == view.options.width &&
                       options.height == view.options.height && options.method == view.options.method &&
                       options.settings == view.options.settings;
+    tell([&](State& s) {
+        s = State{};
+        s.key = view.key;
+        s.preparing = "Preparing";
+        interrupt = false;
+        watch.rearm();
+        if (stopping || givenUp || wanted) giveUp(); // since it was taken
+    });
     scene = std::move(view.scene);
     options = std::move(view.options);
     std::string problem;
     if (!same) {
         renderer.reset();
+        options.watch = &watch;
+        options.interrupt = &interrupt;
+        options.sliceMs = kSliceMs;
         Result<std::unique_ptr<Renderer>> created = Renderer::create(scene, options);
         if (created) {
             renderer = std::move(created.value());
-        } else {
+        } else if (!watch.isCancelled()) {
             problem = created.error();
         }
     }
@@ -109,13 +128,14 @@ void LiveReference::Impl::prepare(ReferenceView view) {
         renderer->setCamera(view.camera, Renderer::CameraChange::Cut);
     }
     tell([&](State& s) {
-        s.preparing = false;
+        s.preparing.clear();
         s.problem = problem;
     });
 }
 
 void LiveReference::Impl::renderOne() {
     const std::optional<Error> failed = renderer->renderFrame();
+    if (renderer->wasInterrupted()) return;
     if (failed) renderer.reset();
     const std::uint32_t frames = renderer ? renderer->meanFrames() : 0;
     tell([&](State& s) {
@@ -171,6 +191,7 @@ LiveReference::~LiveReference() {
     {
         const std::lock_guard lock(impl_->mutex);
         impl_->stopping = true;
+        impl_->giveUp();
     }
     impl_->condition.notify_one();
     impl_->thread.join();
@@ -179,6 +200,7 @@ LiveReference::~LiveReference() {
 void LiveReference::begin(ReferenceView view) {
     {
         const std::lock_guard lock(impl_->mutex);
+        impl_->giveUp();
         impl_->wanted = std::move(view);
         impl_->shown.reset();
     }
@@ -188,6 +210,7 @@ void LiveReference::begin(ReferenceView view) {
 void LiveReference::stop() {
     {
         const std::lock_guard lock(impl_->mutex);
+        impl_->giveUp();
         impl_->wanted.reset();
         impl_->shown.reset();
         impl_->givenUp = true;
@@ -215,7 +238,12 @@ void LiveReference::compare(std::shared_ptr<const Picture> shown, std::uint64_t 
 
 LiveReference::State LiveReference::state() const {
     const std::lock_guard lock(impl_->mutex);
-    return impl_->state;
+    State state = impl_->state;
+    if (!state.preparing.empty()) {
+        state.preparing = impl_->watch.doing();
+        state.preparedShare = impl_->watch.share();
+    }
+    return state;
 }
 
 } // namespace kilolux

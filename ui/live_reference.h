@@ -35,13 +35,13 @@ class LiveReference {
   public:
     // `wake` is called from the thread whenever there is something new.
     explicit LiveReference(std::function<void()> wake);
-    ~LiveReference(); // after its present frame
+    ~LiveReference();
     LiveReference(const LiveReference&) = delete;
     LiveReference& operator=(const LiveReference&) = delete;
 
-    // Begins anew with another view; nobody waits for it.
+    // Begins anew with another view; nobody waits for it. What was being prepared or rendered is given up.
     void begin(ReferenceView view);
-    // Gives the renderer up after its present frame.
+    // Gives the renderer up, in the middle of what it does.
     void stop();
     // While the picture moves the cores are its own.
     void setResting(bool resting);
@@ -51,13 +51,14 @@ class LiveReference {
     struct State {
         std::uint64_t key = 0;
         std::uint32_t frames = 0;
-        bool preparing = false;
+        std::string preparing;      // what is prepared, in words; empty: nothing is
+        double preparedShare = 0.0; // 0 to 1
         std::string problem;
         std::shared_ptr<const ErrorReport> report;
     };
     State state() const;
 
-    static constexpr std::uint32_t kMostFrames = 4096;
+    static constexpr std::uint32_t kMostFrames = 512;
 
   private:
     struct Impl;

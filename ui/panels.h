@@ -4,7 +4,7 @@
 
 #include "ui/desk.h"
 
-#include <string>
+#include <nlohmann/json_fwd.hpp>
 
 struct ImDrawList;
 
@@ -19,7 +19,9 @@ void drawStatusLine(Desk& desk);
 void drawLightList(Desk& desk);
 
 // --- on top of everything
-void drawKeysHelp(Desk& desk); // every key (F1)
+void drawKeysHelp(Desk& desk);                             // every key (F1)
+void drawNotices(Desk& desk, const ViewportRect& rect);    // what the program says
+void drawActivities(Desk& desk, const ViewportRect& rect); // what takes long, with the way out of it
 
 // --- right column, one tab each
 void drawProperties(Desk& desk);
@@ -38,10 +40,10 @@ void pickLights(Desk& desk, ImDrawList& canvas); // click and marquee; after all
 void handleViewKeys(Desk& desk);  // 1 to 9
 void handleLightKeys(Desk& desk); // Q W E R X H Shift+S L Ctrl+D Ctrl+C Ctrl+V Del Esc
 
-// --- for tests: what a panel adds to the state that Desk::stateFile gets, one JSON object a panel
-std::string lightListState(const Desk& desk);
-std::string propertiesState(const Desk& desk);
-std::string gizmoState(const Desk& desk);
-std::string viewPanelState(const Desk& desk);
+// --- for tests: what a panel adds to the state that is written for them
+nlohmann::json lightListState(const Desk& desk);
+nlohmann::json propertiesState(const Desk& desk);
+nlohmann::json gizmoState(const Desk& desk);
+nlohmann::json viewPanelState(const Desk& desk);
 
 } // namespace kilolux

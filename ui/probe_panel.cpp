@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace kilolux {
 
@@ -171,6 +172,11 @@ void drawProbePanel(Desk& desk) {
 
 void toggleProbe(Desk& desk) {
     state(desk).picking = !state(desk).picking;
+    if (state(desk).picking) showTab(desk, RightTab::Probe); // where the answer will stand
+}
+
+bool cancelProbePick(Desk& desk) {
+    return std::exchange(state(desk).picking, false);
 }
 
 void drawProbeOverlay(Desk& desk, ImDrawList& canvas) {

@@ -16,7 +16,8 @@ struct ProbeState {
     double askedS = 0.0;
 };
 
-void toggleProbe(Desk& desk); // the next click chooses a pixel, or no longer
+void toggleProbe(Desk& desk);     // the next click chooses a pixel, or no longer
+bool cancelProbePick(Desk& desk); // no longer; false: it did not anyway
 
 // Light of a line from the probed point: 0 hidden, 1 wholly visible.
 struct ProbeLine {

@@ -34,6 +34,7 @@ void refresh(Desk& desk, PropertiesState& state) {
     }
     state.version = desk.session->version();
     state.values.clear();
+    state.coordinates = {};
     state.applies.clear();
     for (const LightField& field : lightFields())
         state.applies.push_back(allHave(scene, state.selection, field));
@@ -226,14 +227,14 @@ void drawProperties(Desk& desk) {
     if (state.editNext < -1) state.editNext = state.fieldCount - 1;
 }
 
-std::string propertiesState(const Desk& desk) {
+nlohmann::json propertiesState(const Desk& desk) {
     nlohmann::json json = nlohmann::json::object();
-    if (!desk.properties) return json.dump();
+    if (!desk.properties) return json;
     json["editing"] = desk.properties->editing;
     json["dragging"] = desk.properties->dragging;
     json["sharing"] = desk.properties->sharing == Sharing::EditAll ? "all" : "unique";
     json["othersSharing"] = desk.properties->othersSharing;
-    return json.dump();
+    return json;
 }
 
 } // namespace kilolux

@@ -4,6 +4,7 @@
 #include "ui/desk.h"
 #include "ui/light_fields.h"
 
+#include <array>
 #include <map>
 
 namespace kilolux {
@@ -15,6 +16,7 @@ struct PropertiesState {
     Sharing sharing = Sharing::MakeUnique; // until something else is selected
     int othersSharing = 0;
     std::map<std::string_view, CommonValue> values; // by field
+    std::array<CommonValue, 6> coordinates;         // position and angles; without a value: not read yet
     std::vector<bool> applies;                      // lightFields() that all have
     glm::dvec3 eulerRad{0.0};                       // as shown, so that angles do not jump to their twins
 

@@ -4,6 +4,7 @@
 #include "renderer/document/light_words.h"
 #include "ui/light_actions.h"
 #include "ui/light_place.h"
+#include "ui/text_case.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -18,11 +19,6 @@ namespace {
 
 constexpr int kTypedDigits = 12;
 constexpr double kPxPerOctave = 100.0; // of dragging, where a pixel is a factor
-
-std::string lowered(std::string text) {
-    if (!text.empty() && text[0] >= 'A' && text[0] <= 'Z') text[0] = char(text[0] + 32);
-    return text;
-}
 
 // 'Intensity of 3 lights'
 std::string stepName(const Desk& desk, const char* label) {
@@ -63,10 +59,8 @@ void drawUnit(Desk& desk, float widthPx) {
                           ImGuiComboFlags_NoArrowButton)) {
         for (const LightUnitWord& word : kLightUnitWords) {
             const bool suits =
-                std::all_of(desk.selection.begin(), desk.selection.end(), [&](std::uint64_t light) {
-                    const LightNode& node = scene.lights[std::size_t(findLight(scene, light))];
-                    return unitApplies(scene.lightDefs[std::size_t(node.def)], word.unit);
-                });
+                std::all_of(desk.selection.begin(), desk.selection.end(),
+                            [&](std::uint64_t light) { return unitApplies(defOf(scene, light), word.unit); });
             if (!suits) continue;
             const bool same = !value.mixed && word.unit == unit;
             if (ImGui::Selectable(unitLabel(Quantity::Intensity, word.unit).data(), same) && !same) {
@@ -85,21 +79,29 @@ glm::dvec3 angleHint(const PropertiesState& state) {
     return state.eulerRad;
 }
 
+// A coordinate or angle of the selection, remembered as valueOf() does.
+CommonValue coordinateOf(Desk& desk, bool isAngle, int axis) {
+    PropertiesState& state = propertiesOf(desk);
+    const Scene& scene = desk.session->scene();
+    CommonValue& value = state.coordinates[std::size_t(isAngle ? 3 + axis : axis)];
+    if (!std::holds_alternative<std::monostate>(value.value)) return value;
+    const auto numberOf = [&](std::uint64_t light) {
+        return isAngle ? eulerFrom(rotationOf(scene, light), angleHint(state))[axis]
+                       : positionOf(scene, light)[axis];
+    };
+    value = {numberOf(state.selection.front()), false};
+    for (std::size_t i = 1; i < state.selection.size() && !value.mixed; ++i)
+        value.mixed = std::abs(numberOf(state.selection[i]) - std::get<double>(value.value)) > 1e-9;
+    return value;
+}
+
 // One of three numbers in a row.
 void drawCoordinate(Desk& desk, bool isAngle, int axis, float widthPx) {
     PropertiesState& state = propertiesOf(desk);
     const Scene& scene = desk.session->scene();
     constexpr const char* kAxes[] = {"x", "y", "z"};
     const Quantity quantity = isAngle ? Quantity::Angle : Quantity::Length;
-    const auto numberOf = [&](std::uint64_t light) {
-        return isAngle ? eulerFrom(rotationOf(scene, light), angleHint(state))[axis]
-                       : positionOf(scene, light)[axis];
-    };
-    CommonValue value{numberOf(state.selection.front()), false};
-    // Only a look at the first thousand: this is not remembered, and they hardly ever agree.
-    const std::size_t looks = std::min<std::size_t>(state.selection.size(), 1000);
-    for (std::size_t i = 1; i < looks && !value.mixed; ++i)
-        value.mixed = std::abs(numberOf(state.selection[i]) - std::get<double>(value.value)) > 1e-9;
+    const CommonValue value = coordinateOf(desk, isAngle, axis);
     FieldText text = textOf(value, quantity, LightUnit::Candela);
     if (!value.mixed)
         text.shown = fmt::format(
@@ -153,7 +155,8 @@ void drawGroupNumber(Desk& desk, std::uint64_t group, const char* label, const c
     double after = changed(before, entry.value());
     if (dragged) after = std::clamp(after, field.min, field.max);
     const Result<Edits> edits = setField(desk.session->scene(), EditTarget::Group, group, field, after);
-    if (applyEdits(desk, edits, fmt::format("Group {}", lowered(label)), dragged ? dragKey(state) : "") &&
+    if (applyEdits(desk, edits, fmt::format("Group {}", withinSentence(label)),
+                   dragged ? dragKey(state) : "") &&
         dragged && !edits.value().empty())
         noteDragged(desk);
 }

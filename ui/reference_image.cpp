@@ -77,6 +77,14 @@ void followLive(Desk& desk) {
     }
 }
 
+void stopMeasuring(Desk& desk) {
+    ReferenceState& ref = state(desk);
+    ref.live->stop();
+    ref.report.reset();
+    ref.wantedKey = 0;
+    if (ref.mode == Comparing::Error || ref.mode == Comparing::Reference) ref.mode = Comparing::Off;
+}
+
 void drawModes(Desk& desk) {
     ReferenceState& ref = state(desk);
     const auto mode = [&](const char* place, const char* text, const char* tip, Comparing which,
@@ -102,15 +110,29 @@ void drawModes(Desk& desk) {
     if (ref.stored) ImGui::TextDisabled("Stored: %s", ref.storedExposure.c_str());
 }
 
+// How far the reference is, and the way out of it.
+void drawProgress(Desk& desk, const LiveReference::State& live) {
+    ReferenceState& ref = state(desk);
+    const bool prepares = !live.preparing.empty();
+    const char* waits = desk.view.empty() ? "" : ", waits for the picture's own view";
+    const std::string words = prepares ? live.preparing
+                                       : fmt::format("Reference: {} of {} frames{}", live.frames,
+                                                     LiveReference::kMostFrames, waits);
+    ImGui::TextDisabled("%s", words.c_str());
+    progressBar(desk, prepares ? live.preparedShare : double(live.frames) / LiveReference::kMostFrames);
+    mark(desk, "reference.progress");
+    if (textButton(desk, "reference.stop", "Stop")) {
+        ref.measures = false;
+        stopMeasuring(desk);
+    }
+    tooltip("Gives the reference up");
+}
+
 void drawLive(Desk& desk) {
     ReferenceState& ref = state(desk);
     if (ImGui::Checkbox("Measure the error", &ref.measures)) {
         if (!ref.live) ref.live = std::make_shared<LiveReference>(desk.wake);
-        if (!ref.measures) ref.live->stop();
-        ref.report.reset();
-        ref.wantedKey = 0;
-        if (!ref.measures && (ref.mode == Comparing::Error || ref.mode == Comparing::Reference))
-            ref.mode = Comparing::Off;
+        if (!ref.measures) stopMeasuring(desk);
     }
     mark(desk, "reference.live");
     tooltip("Renders a reference of this view whenever the picture rests,\nwith what the processor has left, "
@@ -126,9 +148,7 @@ void drawLive(Desk& desk) {
     }
     const LiveReference::State live = ref.live->state();
     if (!live.problem.empty()) ImGui::TextWrapped("%s", live.problem.c_str());
-    const char* doing =
-        live.preparing ? "preparing" : (desk.view.empty() ? "" : "waits for the picture's own view");
-    ImGui::TextDisabled("Reference: %u frames %s", live.frames, doing);
+    drawProgress(desk, live);
     if (!ref.report) return;
     ImGui::Text("FLIP %.4f (95 %%: %.3f)   relMSE %.5f", ref.report->flipMean, ref.report->flip95,
                 ref.report->relativeMse);

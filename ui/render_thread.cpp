@@ -1,6 +1,8 @@
 // The loop of the render thread, see render_thread.h.
 #include "ui/render_thread.h"
 
+#include "renderer/document/task_watch.h"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -91,12 +93,14 @@ struct RenderThread::Impl {
     bool jobsDone = false; // since the last takeFrame()
     std::shared_ptr<const ShownFrame> finished;
     std::optional<Error> error;
-    std::string activity;
-    std::atomic<bool> interrupt = false; // gives the present frame up
+    Activity activity; // its words and share while a watch tells them: the watch's
+    std::shared_ptr<TaskWatch> watch = std::make_shared<TaskWatch>(); // of the renderer, from its making on
+    std::atomic<bool> interrupt = false;                              // gives the present frame up
     std::atomic<bool> canInterrupt = false;
 
     // --- of the thread
     std::function<void()> wake;
+    std::shared_ptr<TaskWatch> watchOfRenderer; // outlives it
     std::unique_ptr<Renderer> renderer;
     Scene scene;
     RenderOptions options;
@@ -131,6 +135,7 @@ struct RenderThread::Impl {
     void renderOne();
     void publish(double beginMs);
     double wantedScale() const;
+    bool isResting() const { return steadyMs() - lastChangeMs > limits.restMs; }
     bool settled() const { return stillFrames >= limits.meanFrames && !animated(); }
     bool animated() const {
         return options.settings.timeStepS != 0.0 &&
@@ -139,23 +144,41 @@ struct RenderThread::Impl {
     }
     glm::ivec2 pictureSize() const;
     void fail(const Error& what);
-    void say(const std::string& words);
+    void begin(const char* words, bool opens); // what takes long
+    void end();
+    void giveUp(); // under the mutex: what is being prepared is not wanted any more
 };
 
 void RenderThread::Impl::fail(const Error& what) {
     {
         const std::lock_guard lock(mutex);
+        if (watchOfRenderer->isCancelled()) return; // nobody waits for it
         error = what;
     }
     wake();
 }
 
-void RenderThread::Impl::say(const std::string& words) {
+void RenderThread::Impl::begin(const char* words, bool opens) {
     {
         const std::lock_guard lock(mutex);
-        activity = words;
+        activity = {words, 0.0, opens, steadyMs()};
+        watch->reach(words, 0.0);
     }
     wake();
+}
+
+void RenderThread::Impl::end() {
+    {
+        const std::lock_guard lock(mutex);
+        activity = {};
+    }
+    wake();
+}
+
+void RenderThread::Impl::giveUp() {
+    watch->cancel();
+    watch = std::make_shared<TaskWatch>();
+    interrupt = true;
 }
 
 // The viewport's size, or the largest of its shape that the limit allows.
@@ -170,6 +193,10 @@ glm::ivec2 RenderThread::Impl::pictureSize() const {
 
 void RenderThread::Impl::create(OpenRequest request) {
     renderer.reset();
+    {
+        const std::lock_guard lock(mutex);
+        watchOfRenderer = watch;
+    }
     scene = std::move(request.scene);
     options = std::move(request.options);
     camera = request.camera;
@@ -178,9 +205,10 @@ void RenderThread::Impl::create(OpenRequest request) {
     if (size.x > 0) options.width = size.x, options.height = size.y;
     options.sliceMs = limits.sliceMs;
     options.interrupt = &interrupt;
-    say("Preparing the scene");
+    options.watch = watchOfRenderer.get();
+    begin("Preparing the scene", true);
     Result<std::unique_ptr<Renderer>> created = Renderer::create(scene, options);
-    say("");
+    if (!created) end();
     if (!created) return fail(Error{created.error()});
     renderer = std::move(created.value());
     software = renderer->isSoftware(); // another size follows in apply()
@@ -217,7 +245,7 @@ void RenderThread::Impl::apply(Requests requests) {
         stillFrames = 0;
     }
     if (requests.settings) {
-        say("Building pipelines");
+        begin("Building pipelines", false);
         if (works(renderer->setSettings(*requests.settings))) options.settings = *requests.settings;
         freshFrames = 0;
     }
@@ -251,7 +279,7 @@ void RenderThread::Impl::apply(Requests requests) {
 double RenderThread::Impl::wantedScale() const {
     const double most = options.settings.renderScale;
     if (msPerPixel == 0.0) return std::min(limits.leastScale, most); // the first picture comes soon
-    if (steadyMs() - lastChangeMs > limits.restMs) return most;
+    if (isResting()) return most;
     const double pixels = double(options.width) * double(options.height);
     const double fits = std::sqrt(limits.movingFrameMs / (msPerPixel * pixels));
     const double stepped = std::floor(fits * kScaleSteps) / kScaleSteps;
@@ -261,19 +289,21 @@ double RenderThread::Impl::wantedScale() const {
 void RenderThread::Impl::renderOne() {
     scale = wantedScale();
     renderer->setRenderScale(scale);
-    if (freshFrames == 0) say("Building pipelines");
+    if (freshFrames == 0 && activity.words.empty()) begin("Building pipelines", false);
     const double beginMs = steadyMs();
-    // A frame that follows a movement is short and must come to its end; one at rest may be given up for it.
+    // A frame that follows a movement must come to its end, however long it takes: given up for the next
+    // movement, and the next, no picture would come. One at rest may be given up for the first of them. While
+    // pipelines are built only another scene is a reason: begun anew they would take as long.
     const double expectedMs = msPerPixel * double(options.width) * double(options.height) * scale * scale;
     interrupt = false;
-    canInterrupt = expectedMs > limits.movingFrameMs;
+    canInterrupt = isResting() && expectedMs > limits.movingFrameMs && freshFrames > 0;
     {
         const std::lock_guard lock(mutex); // a change that came in between
         if (canInterrupt && pending.atMs > 0.0) interrupt = true;
     }
     const std::optional<Error> failed = renderer->renderFrame();
     canInterrupt = false;
-    if (freshFrames == 0) say("");
+    if (freshFrames == 0) end();
     if (failed) {
         // A device that has failed once does so for ever: the last picture stays.
         fail(*failed);
@@ -344,6 +374,7 @@ RenderThread::~RenderThread() {
     {
         const std::lock_guard lock(impl_->mutex);
         impl_->stopping = true;
+        impl_->giveUp();
     }
     impl_->condition.notify_one();
     impl_->thread.join();
@@ -352,6 +383,7 @@ RenderThread::~RenderThread() {
 void RenderThread::open(const Scene& scene, const RenderOptions& options, const Camera& camera,
                         std::uint64_t version) {
     impl_->request([&](Requests& r) {
+        impl_->giveUp();
         r = r.ofNoScene();
         r.open = OpenRequest{scene, options, camera, version};
         impl_->finished.reset();
@@ -360,6 +392,7 @@ void RenderThread::open(const Scene& scene, const RenderOptions& options, const 
 
 void RenderThread::close() {
     impl_->request([&](Requests& r) {
+        impl_->giveUp();
         r = r.ofNoScene();
         r.close = true;
         impl_->finished.reset();
@@ -433,9 +466,13 @@ std::optional<Error> RenderThread::takeError() {
     return std::exchange(impl_->error, std::nullopt);
 }
 
-std::string RenderThread::activity() const {
+RenderThread::Activity RenderThread::activity() const {
     const std::lock_guard lock(impl_->mutex);
-    return impl_->activity;
+    Activity activity = impl_->activity;
+    if (activity.words.empty()) return activity;
+    activity.words = impl_->watch->doing();
+    activity.share = impl_->watch->share();
+    return activity;
 }
 
 } // namespace kilolux

@@ -51,7 +51,7 @@ class RenderThread {
     // Replaces the renderer: scene, method, settings and camera. Pictures of the old one do not come any
     // more.
     void open(const Scene& scene, const RenderOptions& options, const Camera& camera, std::uint64_t version);
-    void close(); // gives the renderer up
+    void close(); // gives the renderer up, and what it is preparing
 
     // The newest of each holds from the next frame on.
     void setCamera(const Camera& camera, Renderer::CameraChange change);
@@ -75,8 +75,15 @@ class RenderThread {
     bool hasNews() const; // a picture or an error can be taken
     // What went wrong since the last call, in words for the user; the thread goes on where it can.
     std::optional<Error> takeError();
-    // What it is doing when that takes long ("Preparing the scene"); empty: rendering or at rest.
-    std::string activity() const;
+    // What it is doing when that takes long ("Compiling shaders"), and how far it is; no words: rendering or
+    // at rest.
+    struct Activity {
+        std::string words;
+        double share = 0.0;   // 0 to 1
+        bool opens = false;   // a scene; else pipelines of what shows it are built
+        double sinceMs = 0.0; // steadyMs() when it began
+    };
+    Activity activity() const;
 
   private:
     struct Impl;

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t kMostRecent = 10;
+constexpr std::size_t kMostRecent = 10, kMostLocked = 100'000;
 
 // One list of members for both directions.
 template<typename Io>
@@ -23,8 +23,8 @@ void visit(Io& io, Remembered& r) {
     io("windowWidth", r.windowWidth, 320, 16384);
     io("windowHeight", r.windowHeight, 240, 16384);
     io("uiScale", r.uiScale, 0.0, 4.0);
-    io("leftWidth", r.leftWidth, 160.0, 1000.0);
-    io("rightWidth", r.rightWidth, 160.0, 1000.0);
+    io("leftWidth", r.leftWidth, kLeftWidth.least, kLeftWidth.most);
+    io("rightWidth", r.rightWidth, kRightWidth.least, kRightWidth.most);
     io("panels", r.panels.all);
     io("lights", r.panels.lights);
     io("properties", r.panels.properties);
@@ -33,7 +33,7 @@ void visit(Io& io, Remembered& r) {
     io("snapMoveM", r.snapping.moveM, 1e-4, 100.0);
     io("snapAngleDeg", r.snapping.angleDeg, 0.01, 180.0);
     io("snapScale", r.snapping.scale, 1e-3, 10.0);
-    io("gizmoSizePx", r.gizmoSizePx, 32.0, 400.0);
+    io("gizmoSizePx", r.gizmoSizePx, kGizmoSizePx.least, kGizmoSizePx.most);
     io("movingFrameMs", r.limits.movingFrameMs, 10.0, 10000.0);
     io("leastScale", r.limits.leastScale, 0.1, 1.0);
     io("meanFrames", r.limits.meanFrames, 1u, 100000u);
@@ -67,6 +67,14 @@ struct Writer {
     }
 };
 
+std::vector<std::string> textsOf(const Json& json, std::size_t most) {
+    std::vector<std::string> texts;
+    if (!json.is_array()) return texts;
+    for (const Json& text : json)
+        if (text.is_string() && texts.size() < most) texts.push_back(text.get<std::string>());
+    return texts;
+}
+
 } // namespace
 
 fs::path rememberedPath() {
@@ -84,11 +92,13 @@ Remembered readRemembered(const fs::path& path) {
     if (!json.is_object()) return remembered;
     Reader reader{json};
     visit(reader, remembered);
-    const auto recent = json.find("recent");
-    if (recent == json.end() || !recent->is_array()) return remembered;
-    for (const Json& scene : *recent)
-        if (scene.is_string() && remembered.recent.size() < kMostRecent)
-            remembered.recent.push_back(scene.get<std::string>());
+    if (const auto recent = json.find("recent"); recent != json.end())
+        remembered.recent = textsOf(*recent, kMostRecent);
+    const auto locked = json.find("locked");
+    if (locked == json.end() || !locked->is_object()) return remembered;
+    for (const std::string& scene : remembered.recent)
+        if (const auto names = locked->find(scene); names != locked->end())
+            remembered.locked[scene] = textsOf(*names, kMostLocked);
     return remembered;
 }
 
@@ -100,14 +110,24 @@ std::optional<Error> writeRemembered(const fs::path& path, const Remembered& rem
     Remembered copy = remembered;
     visit(writer, copy);
     writer.json["recent"] = remembered.recent;
+    writer.json["locked"] = Json::object();
+    for (const auto& [scene, names] : remembered.locked) {
+        const auto& recent = remembered.recent;
+        const bool isRecent = std::find(recent.begin(), recent.end(), scene) != recent.end();
+        if (isRecent && !names.empty()) writer.json["locked"][scene] = names;
+    }
     // Names of files may be no valid UTF-8.
     return replaceFile(path, writer.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
-void rememberScene(Remembered& remembered, const fs::path& scene) {
+std::string rememberedName(const fs::path& scene) {
     std::error_code failed;
     const fs::path absolute = fs::absolute(scene, failed);
-    const std::string text = failed ? scene.string() : absolute.string();
+    return failed ? scene.string() : absolute.string();
+}
+
+void rememberScene(Remembered& remembered, const fs::path& scene) {
+    const std::string text = rememberedName(scene);
     std::erase(remembered.recent, text);
     remembered.recent.insert(remembered.recent.begin(), text);
     if (remembered.recent.size() > kMostRecent) remembered.recent.resize(kMostRecent);

@@ -4,6 +4,7 @@
 #include "ui/desk.h"
 
 #include <filesystem>
+#include <map>
 
 namespace kilolux {
 
@@ -18,6 +19,9 @@ struct Remembered {
     double gizmoSizePx = 88.0;
     RenderLimits limits;
     std::vector<std::string> recent; // scenes, the newest first
+    // Names of the lights that are not to be picked, by recent scene. They are no part of the file: who locks
+    // lights keeps their own hands off them.
+    std::map<std::string, std::vector<std::string>> locked;
 };
 
 // Where it lies: below $XDG_CONFIG_HOME or ~/.config; empty when neither is set.
@@ -29,5 +33,6 @@ std::optional<Error> writeRemembered(const std::filesystem::path& path, const Re
 
 // Puts a scene first on the list of recent ones.
 void rememberScene(Remembered& remembered, const std::filesystem::path& scene);
+std::string rememberedName(const std::filesystem::path& scene); // as it stands there
 
 } // namespace kilolux

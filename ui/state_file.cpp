@@ -69,7 +69,8 @@ std::string stateText(const Desk& desk, const WindowTimes& times) {
         {"question", questionWord(desk.files->question)},
         {"opening", desk.files->isOpening()},
         {"changedOnDisk", desk.files->changedOnDisk},
-        {"activity", desk.renderThread->activity()},
+        {"activity", desk.renderThread->activity().words},
+        {"saving", desk.files->isSaving()},
         {"notices", std::move(notices)},
         {"panels", desk.panels.all},
         {"uiScale", desk.uiScale},
@@ -81,10 +82,10 @@ std::string stateText(const Desk& desk, const WindowTimes& times) {
         {"longestFrameMs", times.longestFrameMs},
         {"frameMs", times.frameMs},
         {"responseMs", times.responseMs},
-        {"lightList", Json::parse(lightListState(desk), nullptr, false)},
-        {"properties", Json::parse(propertiesState(desk), nullptr, false)},
-        {"gizmo", Json::parse(gizmoState(desk), nullptr, false)},
-        {"viewPanel", Json::parse(viewPanelState(desk), nullptr, false)},
+        {"lightList", lightListState(desk)},
+        {"properties", propertiesState(desk)},
+        {"gizmo", gizmoState(desk)},
+        {"viewPanel", viewPanelState(desk)},
     };
     return state.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,7 @@
 // The line below: what is open, what the picture is made of, how far it has come, what is slow or wrong.
 #include "ui/cost_notes.h"
 #include "ui/file_tasks.h"
+#include "ui/light_actions.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -37,6 +38,12 @@ void drawFileState(Desk& desk) {
     if (desk.session->hasUnsavedChanges()) {
         ImGui::SameLine(0, px(desk, 4));
         ImGui::TextColored(ImColor(theme::kAccent), "edited");
+    }
+    if (!desk.solo.empty()) {
+        ImGui::SameLine();
+        ImGui::TextColored(ImColor(theme::kAccent), "%s %s solo", theme::kSolo,
+                           countedLights(desk.solo.size()).c_str());
+        mark(desk, "status.solo");
     }
     if (!desk.files->changedOnDisk) return;
     ImGui::SameLine();

@@ -3,6 +3,7 @@
 #include "ui/value_entry.h"
 
 #include "renderer/document/light_units.h"
+#include "ui/text_case.h"
 
 #include <algorithm>
 #include <charconv>
@@ -83,12 +84,9 @@ bool isSpace(char c) {
 bool isDigit(char c) {
     return c >= '0' && c <= '9';
 }
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? char(c + 32) : c;
-}
 // Bytes of words: letters, and what UTF-8 writes signs with.
 bool isLetter(char c) {
-    return (lower(c) >= 'a' && lower(c) <= 'z') || static_cast<unsigned char>(c) >= 0x80;
+    return (lowered(c) >= 'a' && lowered(c) <= 'z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -192,7 +190,7 @@ class Parser {
         for (const UnitWord& unit : kUnits) {
             if (unit.quantity != quantity_ || text.size() < unit.word.size()) continue;
             const bool same = std::equal(unit.word.begin(), unit.word.end(), text.begin(),
-                                         [](char a, char b) { return lower(a) == lower(b); });
+                                         [](char a, char b) { return lowered(a) == lowered(b); });
             // A small k is a thousand.
             if (unit.word == "K" && text.front() != 'K') continue;
             // Not the beginning of a longer word.
@@ -206,7 +204,7 @@ class Parser {
         skipSpace();
         if (rest_.empty() || !isLetter(rest_.front())) return true;
         const UnitWord* unit = unitAt(rest_);
-        const bool thousands = lower(rest_.front()) == 'k', millions = rest_.front() == 'M';
+        const bool thousands = lowered(rest_.front()) == 'k', millions = rest_.front() == 'M';
         if (!unit && (thousands || millions)) {
             std::string_view behind = rest_.substr(1);
             const bool endsHere = behind.empty() || !isLetter(behind.front());

@@ -248,8 +248,8 @@ void handleViewKeys(Desk& desk) {
     if (ImGui::IsKeyPressed('B', false)) toggleStored(desk);
 }
 
-std::string viewPanelState(const Desk& desk) {
-    if (!desk.shown) return "{}";
+nlohmann::json viewPanelState(const Desk& desk) {
+    if (!desk.shown) return nlohmann::json::object();
     const Legend& legend = desk.shown->statistics.legend;
     nlohmann::json json{{"shown", desk.shown->statistics.view},
                         {"low", legend.range.low},
@@ -274,7 +274,7 @@ std::string viewPanelState(const Desk& desk) {
                              {"relativeMse", ref->report->relativeMse},
                              {"frames", ref->report->frames}};
     }
-    return json.dump();
+    return json;
 }
 
 } // namespace kilolux

@@ -17,6 +17,12 @@ glm::dvec2 halfExtents(const Camera& camera, double aspect) {
 
 } // namespace
 
+bool Viewport::showsAs(const Viewport& other) const {
+    return rect == other.rect && camera.worldFromCamera == other.camera.worldFromCamera &&
+           camera.orthographic == other.camera.orthographic && camera.znearM == other.camera.znearM &&
+           clipFromView() == other.clipFromView();
+}
+
 glm::dmat4 Viewport::viewFromWorld() const {
     return glm::inverse(camera.worldFromCamera);
 }

@@ -33,6 +33,8 @@ struct Viewport {
     ViewportRect rect;
     Camera camera;
 
+    // Every point of the scene at the same pixel as in the other one.
+    bool showsAs(const Viewport& other) const;
     double aspect() const { return rect.width / rect.height; }
     glm::dvec3 eyeWs() const { return glm::dvec3(camera.worldFromCamera[3]); }
     glm::dmat4 viewFromWorld() const;

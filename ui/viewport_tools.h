@@ -11,11 +11,25 @@ struct ImDrawList;
 
 namespace kilolux {
 
+// Where the gizmo stands: the middle of the lights that tools may change, and the axes of the first of them.
+// Made again when what it follows from has changed.
+struct GizmoPlace {
+    std::uint64_t version = 0;
+    std::vector<std::uint64_t> selection, locked;
+    std::vector<std::uint64_t> lights; // selected and not locked
+    glm::dvec3 originWs{0.0};
+    glm::dmat3 ownAxes{1.0};
+};
+
 struct GizmoState {
-    OutlineSet outlines; // of the frame being drawn
+    OutlineSet outlines; // made again when the document or where it is seen from has changed
+    std::uint64_t outlinesVersion = 0;
+    Viewport outlinesViewport;
+    double outlinesScale = 0.0;
     LightColors colors;
     std::uint64_t hovered = 0; // light under the pointer; 0: none
 
+    GizmoPlace place;
     GizmoHandle hot = GizmoHandle::None; // under the pointer
     std::optional<GizmoDrag> drag;
     Scene dragStart; // the document when the drag began
@@ -43,7 +57,6 @@ bool cancelGizmoDrag(Desk& desk);
 // The menu of light types, while it is open.
 void drawAddMenu(Desk& desk);
 
-// Lights of the selection that are not locked: those that tools may change.
-std::vector<std::uint64_t> unlockedSelection(const Desk& desk);
+const GizmoPlace& gizmoPlace(const Desk& desk); // brought up to date
 
 } // namespace kilolux

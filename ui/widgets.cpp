@@ -3,6 +3,7 @@
 
 #include "ui/theme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <imgui.h>
 
@@ -87,6 +88,16 @@ void closePopupOnEscape() {
 
 bool isPopupOpen() {
     return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+void progressBar(Desk& desk, double share) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, height = px(desk, 4);
+    const float done = width * float(std::clamp(share, 0.02, 1.0));
+    ImDrawList& canvas = *ImGui::GetWindowDrawList();
+    canvas.AddRectFilled(corner, {corner.x + width, corner.y + height}, theme::kField, height);
+    canvas.AddRectFilled(corner, {corner.x + done, corner.y + height}, theme::kAccent, height);
+    ImGui::Dummy({width, height});
 }
 
 void mark(Desk& desk, const std::string& name) {

@@ -27,6 +27,9 @@ void textWithin(std::string_view text, float widthPx);
 void closePopupOnEscape();
 bool isPopupOpen(); // any: keys are its
 
+// A thin bar across what is left of the row; share: 0 to 1.
+void progressBar(Desk& desk, double share);
+
 // Names the last item for tests.
 void mark(Desk& desk, const std::string& name);
 

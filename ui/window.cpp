@@ -145,7 +145,8 @@ void Window::chooseScale() {
 
 // Whether something moves by itself.
 bool Window::isBusy() const {
-    if (desk_.flying || desk_.files->isOpening() || !renderThread_->activity().empty()) return true;
+    if (desk_.flying || desk_.files->isOpening() || desk_.files->isSaving()) return true;
+    if (!renderThread_->activity().words.empty()) return true;
     return ImGui::GetIO().WantTextInput; // the caret blinks
 }
 
@@ -209,11 +210,17 @@ void Window::handleKeys() {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantTextInput || desk_.files->question != Question::None) return;
     const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+    if (pressed(GLFW_KEY_F1)) desk_.showsHelp = !desk_.showsHelp;
+    if (desk_.showsHelp) {
+        // It lies over everything: Esc is for it, and nothing is worked at below.
+        if (pressed(GLFW_KEY_ESCAPE)) desk_.showsHelp = false;
+        return;
+    }
     if (io.KeyCtrl) {
         if (pressed(GLFW_KEY_Z)) io.KeyShift ? redo(desk_) : undo(desk_);
         if (pressed(GLFW_KEY_Y)) redo(desk_);
         if (pressed(GLFW_KEY_O)) askToOpen(desk_);
-        if (pressed(GLFW_KEY_S)) io.KeyShift ? askToSaveAs(desk_) : void(saveScene(desk_));
+        if (pressed(GLFW_KEY_S)) io.KeyShift ? askToSaveAs(desk_) : saveScene(desk_);
         if (pressed(GLFW_KEY_Q)) requestQuit(desk_);
     } else {
         if (pressed(GLFW_KEY_TAB)) desk_.panels.all = !desk_.panels.all;
@@ -259,6 +266,7 @@ void Window::drawFrame(const std::vector<InputEvent>& events, double dueMs) {
 }
 
 void Window::remember() {
+    rememberLocks(desk_);
     FileTasks& files = *desk_.files;
     Remembered& remembered = files.remembered;
     int width = 0, height = 0;
@@ -291,7 +299,10 @@ std::optional<Error> Window::run() {
         if (!input_.dropped.empty()) openScene(desk_, input_.dropped.front());
         input_.dropped.clear();
         if (hidden) {
-            input_.queue.clear();
+            // Nothing is drawn, but a button or key that is let go must not stay down.
+            while (!input_.queue.empty())
+                feedImGui(input_.queue.takeFrame());
+            ImGui::GetIO().ClearInputCharacters();
             glfwWaitEventsTimeout(0.2);
             continue;
         }

@@ -2,8 +2,10 @@
 //
 // Records are JSON. {"change": ..., "merged": ...} is a change, {"undo": change} and {"redo": change} say
 // what undoing and redoing applied. {"state": ...} is written right before the scene's file is replaced: the
-// document as saved, with the session's ids, for those who find that file. A journal is continuous: the
-// records from its start fit the file it names, those behind a state fit the file that the state names.
+// document as saved, with the session's ids, for those who find that file. Changes made while that file was
+// written stand before the state; its "behind" counts them, and they are not part of it. A journal is
+// continuous: the records from its start fit the file it names, those behind a state and the ones that it
+// counts fit the file that the state names.
 #include "renderer/document/edit_json.h"
 #include "renderer/document/edit_session.h"
 #include "renderer/document/file_hash.h"
@@ -29,25 +31,32 @@ bool isStateOf(const Json& record, std::uint64_t fileHash) {
            hash == fileHash;
 }
 
-// The records that lead from the file of that hash to the last document; nothing where it fits no such file.
-std::optional<std::vector<Json>> recordsFrom(const JournalContent& content, std::uint64_t fileHash) {
-    std::vector<Json> records;
-    std::size_t start = content.baseHash == fileHash ? 0 : SIZE_MAX;
-    for (const std::string& text : content.records) {
-        records.push_back(Json::parse(text, nullptr, false));
-        if (isStateOf(records.back(), fileHash)) start = records.size() - 1;
-    }
-    if (start == SIZE_MAX) return std::nullopt;
-    records.erase(records.begin(), records.begin() + static_cast<std::ptrdiff_t>(start));
-    // A state of another file was followed by no replacement of it, or by a restored older file.
-    std::erase_if(records, [&](const Json& r) {
-        return r.is_object() && r.contains("state") && !isStateOf(r, fileHash);
-    });
-    return records;
-}
-
 bool isChange(const Json& record) {
     return !(record.is_object() && record.contains("state"));
+}
+
+// The records that lead from the file of that hash to the last document; nothing where it fits no such file.
+std::optional<std::vector<Json>> recordsFrom(const JournalContent& content, std::uint64_t fileHash) {
+    std::vector<Json> records, changes;
+    std::size_t start = content.baseHash == fileHash ? 0 : SIZE_MAX; // into `changes`
+    for (const std::string& text : content.records) {
+        Json record = Json::parse(text, nullptr, false);
+        if (isStateOf(record, fileHash)) {
+            const Json& state = record["state"];
+            const auto behind = state.find("behind");
+            const std::size_t count =
+                behind != state.end() && behind->is_number_unsigned() ? behind->get<std::size_t>() : 0;
+            start = changes.size() - std::min(count, changes.size());
+            records = {std::move(record)};
+        } else if (isChange(record)) {
+            // A state of another file was followed by no replacement of it, or by a restored older file.
+            changes.push_back(std::move(record));
+        }
+    }
+    if (start == SIZE_MAX) return std::nullopt;
+    records.insert(records.end(), std::make_move_iterator(changes.begin() + std::ptrdiff_t(start)),
+                   std::make_move_iterator(changes.end()));
+    return records;
 }
 
 template<typename T>
@@ -134,31 +143,31 @@ std::size_t EditSession::recoverableChanges(const fs::path& path, const fs::path
 
 // Nodes that the file does not have, and those whose lights may be edited, stand here with every digit; of
 // the others the place in the file is enough.
-Json EditSession::stateJson(const SavePlan& plan, std::uint64_t fileHash) const {
+Json savedStateJson(const Scene& scene, const Scene& opened, const SavePlan& plan, std::uint64_t fileHash) {
     std::set<std::uint64_t> exact; // ids, which name one node in both scenes
-    for (const Scene* scene : {&scene_, &opened_})
-        for (const LightNode& light : scene->lights.read())
-            exact.insert(scene->nodes.read()[light.node].id);
+    for (const Scene* each : {&scene, &opened})
+        for (const LightNode& light : each->lights.read())
+            exact.insert(each->nodes.read()[light.node].id);
     Json nodes = Json::array();
-    for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const int place = plan.nodeIndices[i];
-        const Node& node = scene_.nodes[i];
+        const Node& node = scene.nodes[i];
         if (place >= 0 && !exact.contains(node.id)) {
             nodes.push_back(Json::array({place, node.id}));
         } else {
             nodes.push_back(Json::array({place, toJson(node)}));
         }
     }
-    std::vector<LightDef> defs = scene_.lightDefs.read();
+    std::vector<LightDef> defs = scene.lightDefs.read();
     for (std::size_t i = 0; i < defs.size(); ++i)
         defs[i].pointer = plan.defPointers[i];
     Json state = {{"file", hashText(fileHash)},
                   {"nodes", std::move(nodes)},
                   {"defs", arrayJson(defs)},
-                  {"lights", arrayJson(scene_.lights.read())},
-                  {"groups", arrayJson(scene_.groups.read())},
-                  {"bookmarks", arrayJson(scene_.bookmarks)}};
-    if (scene_.hasExposure) state["exposureEv100"] = scene_.exposureEv100;
+                  {"lights", arrayJson(scene.lights.read())},
+                  {"groups", arrayJson(scene.groups.read())},
+                  {"bookmarks", arrayJson(scene.bookmarks)}};
+    if (scene.hasExposure) state["exposureEv100"] = scene.exposureEv100;
     return state;
 }
 
@@ -249,7 +258,7 @@ std::optional<Error> EditSession::openJournal(const fs::path& path, SessionOptio
         Result<std::unique_ptr<Journal>> locked =
             usable ? Journal::resume(path, content) : Journal::lock(path);
         if (!locked) return Error{locked.error()};
-        journal_ = std::move(locked.value());
+        std::unique_ptr<Journal> journal = std::move(locked.value());
         if (usable && !content.records.empty() && recovery == SessionOptions::Recovery::TakeUp) {
             if (std::optional<Error> error = recover(content)) {
                 warning_ = Error{
@@ -257,16 +266,19 @@ std::optional<Error> EditSession::openJournal(const fs::path& path, SessionOptio
                                 "'{}.old'",
                                 source_.path.string(), error->message, path.string())};
             } else {
+                journal_ = std::make_shared<SessionJournal>(std::move(journal));
                 return std::nullopt;
             }
         }
-        if (usable && content.records.empty() && content.baseHash == source_.diskHash) return std::nullopt;
+        if (usable && content.records.empty() && content.baseHash == source_.diskHash) {
+            journal_ = std::make_shared<SessionJournal>(std::move(journal));
+            return std::nullopt;
+        }
         if (!usable || !content.records.empty()) putAside(path);
-        journal_.reset();
     }
     Result<std::unique_ptr<Journal>> created = Journal::create(path, source_.diskHash);
     if (!created) return Error{created.error()};
-    journal_ = std::move(created.value());
+    journal_ = std::make_shared<SessionJournal>(std::move(created.value()));
     return std::nullopt;
 }
 

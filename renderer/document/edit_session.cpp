@@ -82,69 +82,66 @@ std::optional<Error> EditSession::cancel() {
     return std::nullopt;
 }
 
-bool EditSession::changedOnDisk() const {
-    const Result<std::string> bytes = readWholeFile(source_.path);
-    return !bytes || hashBytes(bytes.value()) != source_.diskHash;
+bool DiskLook::differs() const {
+    const Result<std::string> bytes = readWholeFile(path);
+    return !bytes || hashBytes(bytes.value()) != hash;
 }
 
 std::optional<Error> EditSession::save(Overwriting overwriting) {
-    const Result<std::string> disk = readWholeFile(source_.path);
-    if (!disk) return Error{disk.error()};
-    if (overwriting == Overwriting::OnlyUnchanged && hashBytes(disk.value()) != source_.diskHash)
-        return at(source_.path, "expected the file as it was opened; another program has changed it on disk");
-    return writeFile(source_.path, disk.value());
+    return saveNow(prepareSave(overwriting));
 }
 
 std::optional<Error> EditSession::saveAs(const fs::path& path) {
+    return saveNow(prepareSaveAs(path));
+}
+
+std::optional<Error> EditSession::saveNow(Result<std::unique_ptr<SaveRun>> run) {
+    if (!run) return Error{run.error()};
+    run.value()->run(nullptr);
+    finishSave(*run.value());
+    if (run.value()->end() == SaveEnd::Saved) return std::nullopt;
+    return Error{run.value()->error()};
+}
+
+Result<std::unique_ptr<SaveRun>> EditSession::prepareSave(Overwriting overwriting) {
+    return prepareRun(source_.path, overwriting);
+}
+
+Result<std::unique_ptr<SaveRun>> EditSession::prepareSaveAs(const fs::path& path) {
     std::error_code error;
-    if (fs::equivalent(path, source_.path, error)) return save();
+    if (fs::equivalent(path, source_.path, error)) return prepareSave();
     const char* ending = source_.isBinary ? ".glb" : ".gltf";
     if (path.extension() != ending)
         return at(path, fmt::format("expected a name that ends in {}, as that of the scene", ending));
-    const Result<std::string> disk = readWholeFile(source_.path);
-    if (!disk) return Error{disk.error()};
-    if (std::optional<Error> failed = copyResources(source_, path)) return failed;
-    return writeFile(path, disk.value());
+    return prepareRun(path, Overwriting::Anything);
 }
 
-// The journal learns of the new file before it is there, so that a crash in between finds one or the other.
-std::optional<Error> EditSession::writeFile(const fs::path& target, std::string_view diskBytes) {
-    const Result<SavePlan> plan = planSave(source_, opened_, scene_);
-    if (!plan) return Error{plan.error()};
-    const Result<std::string> bytes = withJsonText(source_, diskBytes, plan.value().jsonText);
-    if (!bytes) return Error{bytes.error()};
-    const std::uint64_t hash = hashBytes(bytes.value());
-    const bool sameFile = target == source_.path;
-    const std::string state =
-        journal_ ? Json{{"state", stateJson(plan.value(), hash)}}.dump() : std::string();
-    if (journal_ && sameFile) {
-        record(state);
-        if (std::optional<Error> error = journal_->sync()) warning_ = error;
-    }
-    if (!sameFile || diskBytes != bytes.value()) {
-        if (std::optional<Error> error = replaceFile(target, bytes.value())) return error;
-    }
-    source_.path = target;
-    source_.diskHash = hash;
-    scene_.sourcePath = target;
-    opened_.sourcePath = target;
-    history_.seal();
-    savedState_ = history_.state();
+Result<std::unique_ptr<SaveRun>> EditSession::prepareRun(const fs::path& target, Overwriting overwriting) {
+    if (saving_) return at(source_.path, "expected the end of the save that is running");
+    history_.seal(); // what is saved is a state that undo leads back to
+    std::unique_ptr<SaveRun> run(new SaveRun());
+    run->source_ = source_;
+    run->opened_ = opened_;
+    run->scene_ = scene_;
+    run->target_ = target;
+    run->overwriting_ = overwriting;
+    run->historyState_ = history_.state();
+    run->journal_ = journal_;
+    if (journal_) journal_->beginSave();
+    saving_ = true;
+    return run;
+}
+
+void EditSession::finishSave(const SaveRun& run) {
+    saving_ = false;
+    if (run.warning_) warning_ = run.warning_;
+    if (run.end() != SaveEnd::Saved) return;
+    source_.path = run.target_;
+    source_.diskHash = run.fileHash_;
+    scene_.sourcePath = run.target_;
+    opened_.sourcePath = run.target_;
+    savedState_ = run.historyState_;
     ++version_;
-    if (journal_ && sameFile && unwritten_.empty()) {
-        // Keeps the journal short; its old form would do as well.
-        if (std::optional<Error> error = journal_->restart(hash, state)) warning_ = error;
-    }
-    if (journal_ && !sameFile) {
-        const fs::path place = journal_->path().parent_path() / defaultJournalPath(target).filename();
-        Result<std::unique_ptr<Journal>> moved = Journal::create(place, hash);
-        journal_->discard(); // the old scene's file has nothing to recover
-        journal_ = moved ? std::move(moved.value()) : nullptr;
-        if (!moved) warning_ = Error{moved.error()};
-        unwritten_.clear();
-        record(state);
-    }
-    return std::nullopt;
 }
 
 void EditSession::discardJournal() {
@@ -152,17 +149,13 @@ void EditSession::discardJournal() {
     journal_.reset();
 }
 
-// A record that cannot be written waits, so that the journal never has a gap.
+std::optional<Error> EditSession::takeWarning() {
+    if (!warning_ && journal_) warning_ = journal_->takeWarning();
+    return std::exchange(warning_, std::nullopt);
+}
+
 void EditSession::record(std::string record) {
-    if (!journal_) return;
-    unwritten_.push_back(std::move(record));
-    while (!unwritten_.empty()) {
-        if (std::optional<Error> error = journal_->append(unwritten_.front())) {
-            warning_ = error;
-            return;
-        }
-        unwritten_.erase(unwritten_.begin());
-    }
+    if (journal_) journal_->record(std::move(record));
 }
 
 } // namespace kilolux

@@ -7,9 +7,7 @@
 #include "renderer/document/gltf_import.h"
 #include "renderer/document/gltf_save.h"
 #include "renderer/document/history.h"
-#include "renderer/document/journal.h"
-
-#include <nlohmann/json_fwd.hpp>
+#include "renderer/document/save_run.h"
 
 namespace kilolux {
 
@@ -22,7 +20,12 @@ struct SessionOptions {
     enum class Recovery { TakeUp, PutAside } recovery = Recovery::TakeUp;
 };
 
-enum class Overwriting { OnlyUnchanged, Anything };
+// Whether a file on disk is still the one that was opened or saved last; for any thread, it reads the file.
+struct DiskLook {
+    std::filesystem::path path;
+    std::uint64_t hash = 0;
+    bool differs() const;
+};
 
 class EditSession {
   public:
@@ -50,8 +53,8 @@ class EditSession {
     std::uint64_t version() const { return version_; }
 
     bool hasUnsavedChanges() const { return history_.state() != savedState_; }
-    // Whether the file on disk is no longer the one that was opened or saved last.
-    bool changedOnDisk() const;
+    DiskLook diskLook() const { return {source_.path, source_.diskHash}; }
+    bool changedOnDisk() const { return diskLook().differs(); }
 
     // Saves to the file that the scene came from, or to another one, which becomes the scene's file. A file
     // that another program has changed is only overwritten when asked to. Without any edit the bytes are
@@ -59,11 +62,17 @@ class EditSession {
     std::optional<Error> save(Overwriting overwriting = Overwriting::OnlyUnchanged);
     std::optional<Error> saveAs(const std::filesystem::path& path);
 
+    // The same in three steps, of which the middle one, SaveRun::run(), is for another thread. Edits go on
+    // meanwhile and are unsaved changes afterwards. One at a time.
+    Result<std::unique_ptr<SaveRun>> prepareSave(Overwriting overwriting = Overwriting::OnlyUnchanged);
+    Result<std::unique_ptr<SaveRun>> prepareSaveAs(const std::filesystem::path& path);
+    void finishSave(const SaveRun& run);
+
     // Ends the session for good: nothing is left to recover. Without this the journal stays.
     void discardJournal();
 
     // What went wrong beside the work: a journal that cannot be written. Told once.
-    std::optional<Error> takeWarning() { return std::exchange(warning_, std::nullopt); }
+    std::optional<Error> takeWarning();
     std::size_t recoveredChanges() const { return recoveredChanges_; }
 
   private:
@@ -71,18 +80,18 @@ class EditSession {
     std::optional<Error> recover(const JournalContent& content);
     std::optional<Error> replay(const nlohmann::json& record);
     std::optional<Error> takeState(const nlohmann::json& state);
-    nlohmann::json stateJson(const SavePlan& plan, std::uint64_t fileHash) const;
     std::optional<Error> openJournal(const std::filesystem::path& path, SessionOptions::Recovery recovery);
     void record(std::string record);
-    std::optional<Error> writeFile(const std::filesystem::path& target, std::string_view diskBytes);
+    Result<std::unique_ptr<SaveRun>> prepareRun(const std::filesystem::path& target, Overwriting overwriting);
+    std::optional<Error> saveNow(Result<std::unique_ptr<SaveRun>> run);
 
     Scene scene_;
     Scene opened_; // as imported, with the session's ids
     SourceFile source_;
     History history_;
     EditIds ids_;
-    std::unique_ptr<Journal> journal_;
-    std::vector<std::string> unwritten_; // records that the journal could not take yet
+    std::shared_ptr<SessionJournal> journal_; // null: none
+    bool saving_ = false;
     std::optional<Error> warning_;
     std::uint64_t version_ = 1;
     std::uint64_t savedState_ = 0;

@@ -112,10 +112,20 @@ std::optional<Error> replaceFile(const fs::path& path, std::string_view bytes,
     ::umask(mask);
     if (::fchmod(file.get(), existed ? old.st_mode & 07777 : 0666 & ~mask) != 0)
         return giveUp("set permissions");
-    if (!writeAll(file.get(), bytes)) return giveUp("write");
+    constexpr std::size_t kPartBytes = 4u << 20;
+    for (std::size_t at = 0; at < bytes.size(); at += kPartBytes) {
+        if (options.onWritten) {
+            const auto stopped = options.onWritten(double(at) / double(bytes.size()));
+            if (stopped) return file.remove(), stopped;
+        }
+        if (!writeAll(file.get(), bytes.substr(at, kPartBytes))) return giveUp("write");
+    }
     reach(ReplaceStage::Written);
     if (::fsync(file.get()) != 0) return giveUp("write");
     reach(ReplaceStage::Synced);
+    if (options.beforeRename) {
+        if (auto stopped = options.beforeRename()) return file.remove(), stopped;
+    }
     if (!file.giveName() || ::rename(file.name().c_str(), target.c_str()) != 0) return giveUp("replace it");
     reach(ReplaceStage::Renamed);
     if (!syncFolder(target.parent_path())) return systemError(path, "make it durable");

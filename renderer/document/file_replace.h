@@ -15,6 +15,10 @@ enum class ReplaceStage { Opened, Written, Synced, Renamed };
 
 struct ReplaceOptions {
     std::function<void(ReplaceStage)> onStage;
+    // Called with the share that is written, 0 to 1; an error gives the replacement up and comes back.
+    std::function<std::optional<Error>(double)> onWritten;
+    // Called last before the file is replaced, likewise.
+    std::function<std::optional<Error>()> beforeRename;
 };
 
 // Writes a new file beside `path`, makes it durable, and renames it into place. A link is followed;

@@ -30,6 +30,9 @@ struct ImportFailure {
     std::string text;
 };
 
+// Thrown where the import looks whether anybody still waits for it.
+struct ImportCancelled {};
+
 // Text from a file made fit for one line of a message: control characters replaced, long text cut.
 std::string printable(std::string_view text);
 
@@ -72,13 +75,20 @@ struct ImportContext {
     // (an accessor without data or one shared by thousands of primitives costs a few bytes of JSON).
     void chargeGeometry(std::uint64_t bytes, std::string_view place);
 
+    // Tells the watch how much of the whole import is done; throws ImportCancelled when nobody waits for it.
+    void reach(const char* doing, double share) const;
+    // The same for one of many parts that together take the import from one share to another.
+    void reach(const char* doing, double from, double to, std::size_t part, std::size_t parts) const;
+
     std::size_t droppedWarnings = 0;
 };
 
 // --- gltf_file.cpp ---
 
-// Reads a regular file of at most `maxBytes`; fails at `place` otherwise.
-Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes, std::string_view place);
+// Reads a regular file of at most `maxBytes`; fails at `place` otherwise. `context`: whose watch is asked
+// meanwhile; null: nobody's.
+Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes, std::string_view place,
+               const ImportContext* context = nullptr);
 
 // Splits .glb chunks or takes the text as it is, and parses the JSON within limits of depth and size.
 // `file` must outlive the context's binaryChunk.

@@ -1,6 +1,7 @@
 // From a file to a JSON document: bounded reading, .glb chunks (glTF 2.0, section 4.4), and JSON within
 // limits of depth and size, because the parsed form takes many times the text.
 #include "renderer/document/gltf_context.h"
+#include "renderer/document/task_watch.h"
 
 #include <cstring>
 #include <fstream>
@@ -117,7 +118,19 @@ void ImportContext::chargeGeometry(std::uint64_t bytes, std::string_view place) 
     }
 }
 
-Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes, std::string_view place) {
+void ImportContext::reach(const char* doing, double share) const {
+    if (!options.watch) return;
+    if (options.watch->isCancelled()) throw ImportCancelled();
+    options.watch->reach(doing, share);
+}
+
+void ImportContext::reach(const char* doing, double from, double to, std::size_t part,
+                          std::size_t parts) const {
+    reach(doing, from + (to - from) * double(part) / double(std::max<std::size_t>(parts, 1)));
+}
+
+Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes, std::string_view place,
+               const ImportContext* context) {
     std::error_code error;
     const auto status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status))
@@ -130,9 +143,15 @@ Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes, std::s
     if (error) fail(place, "expected a readable file, '{}': {}", printable(path.string()), error.message());
     Bytes bytes(std::min<std::uint64_t>(size, maxBytes));
     std::ifstream stream(path, std::ios::binary);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!stream || static_cast<std::size_t>(stream.gcount()) != bytes.size()) {
-        fail(place, "expected {} readable bytes in '{}'", bytes.size(), printable(path.string()));
+    // In parts, so that a slow disk can be given up.
+    constexpr std::size_t kPartBytes = 8u << 20;
+    for (std::size_t at = 0; at < bytes.size(); at += kPartBytes) {
+        if (context && context->options.watch && context->options.watch->isCancelled())
+            throw ImportCancelled();
+        const std::size_t part = std::min(kPartBytes, bytes.size() - at);
+        stream.read(reinterpret_cast<char*>(bytes.data()) + at, static_cast<std::streamsize>(part));
+        if (!stream || static_cast<std::size_t>(stream.gcount()) != part)
+            fail(place, "expected {} readable bytes in '{}'", bytes.size(), printable(path.string()));
     }
     return bytes;
 }

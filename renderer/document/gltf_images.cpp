@@ -3,6 +3,7 @@
 #include "renderer/document/gltf_images.h"
 
 #include "renderer/document/image_import.h"
+#include "renderer/document/task_watch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -53,7 +54,7 @@ int ImageLoader::addSource(int gltfImage) {
         key = path.string();
         source.name = text;
         if (!bySource_.contains(key)) {
-            source.storage = readFile(path, UINT64_MAX, place + "/uri");
+            source.storage = readFile(path, UINT64_MAX, place + "/uri", &context_);
             context_.fileBytes += source.storage.size();
             source.bytes = source.storage;
         }
@@ -92,8 +93,11 @@ std::vector<bool> ImageLoader::load() {
     std::vector<std::shared_ptr<const Image>> images(sources_.size());
     std::vector<std::string> errors(sources_.size());
     std::atomic<std::size_t> next = 0;
+    TaskWatch* const watch = context_.options.watch;
     const auto work = [&] {
         for (std::size_t i = next++; i < sources_.size(); i = next++) {
+            if (watch && watch->isCancelled()) return;
+            if (watch) watch->reach("Reading textures", 0.4 + 0.3 * double(i) / double(sources_.size()));
             ImageImportOptions options;
             options.maxDecodedBytes = sources_[i].budgetBytes;
             auto image = importImage(sources_[i].bytes, printable(sources_[i].name), options);
@@ -110,6 +114,7 @@ std::vector<bool> ImageLoader::load() {
             threads.emplace_back(work);
         work();
     }
+    if (watch && watch->isCancelled()) throw ImportCancelled();
     std::vector<bool> loaded(sources_.size());
     for (std::size_t i = 0; i < sources_.size(); ++i) {
         loaded[i] = images[i] != nullptr;

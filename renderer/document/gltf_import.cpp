@@ -7,21 +7,27 @@ namespace {
 
 Scene importScene(gltf::ImportContext& context) {
     using namespace gltf;
-    Bytes file = readFile(context.path, UINT64_MAX, "file");
+    context.reach("Reading the file", 0.0);
+    Bytes file = readFile(context.path, UINT64_MAX, "file", &context);
     context.fileBytes = file.size();
+    context.reach("Reading the file", 0.15);
     parseDocument(context, file);
     if (!context.binaryChunk.data()) Bytes().swap(file); // the text is parsed; it may hold large data URIs
     checkExtensions(context);
+    context.reach("Checking the file", 0.25);
     checkSchema(context);
+    context.reach("Reading buffers", 0.3);
     loadBuffers(context);
     decodeCompressedViews(context);
     {
+        context.reach("Reading buffers", 0.35);
         const tinygltf::Model model = parseModel(context);
         importMaterials(context, model);
         importNodes(context, model);
         importMeshes(context, model);
         importAnimations(context, model);
     }
+    context.reach("Reading lights", 0.97);
     importSceneExtras(context);
     importLights(context);
     if (triangleCount(context.scene) == 0)
@@ -44,6 +50,8 @@ Result<Scene> importGltf(const std::filesystem::path& path, const ImportOptions&
         return importScene(context);
     } catch (const gltf::ImportFailure& failure) {
         return Error{name + ": " + failure.text};
+    } catch (const gltf::ImportCancelled&) {
+        return Error{name + ": opening was cancelled"};
     } catch (const std::bad_alloc&) {
         return Error{name + ": file: expected a scene that fits into memory"};
     } catch (const std::exception& e) {

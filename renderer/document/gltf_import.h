@@ -10,8 +10,11 @@
 
 namespace kilolux {
 
+class TaskWatch; // task_watch.h
+
 struct ImportOptions {
-    bool loadImages = true; // false leaves every TextureRef empty
+    bool loadImages = true;     // false leaves every TextureRef empty
+    TaskWatch* watch = nullptr; // null: nobody waits; cancelled, the import ends with an error
 };
 
 // Reads the file and what it refers to within its own folder. An error is one line, `file: JSON pointer: what

@@ -208,6 +208,7 @@ void MeshImporter::run() {
         if (node.mesh >= 0) used[node.mesh] = true;
     }
     for (std::size_t i = 0; i < model_.meshes.size(); ++i) {
+        context_.reach("Reading meshes", 0.7, 0.95, i, model_.meshes.size());
         auto mesh = std::make_shared<Mesh>();
         mesh->name = model_.meshes[i].name;
         // A mesh that no node shows is kept as an empty slot.

@@ -72,6 +72,7 @@ void decodeCompressedViews(ImportContext& context) {
         if (extensions == (*views)[i].end() || !extensions->is_object()) continue;
         const auto extension = extensions->find("EXT_meshopt_compression");
         if (extension == extensions->end()) continue;
+        context.reach("Reading buffers", 0.35);
         const std::string place = fmt::format("/bufferViews/{}/extensions/EXT_meshopt_compression", i);
         if (!extension->is_object()) fail(place, "expected an object");
         context.decodedViews[static_cast<int>(i)] = decodeView(context, *extension, place);

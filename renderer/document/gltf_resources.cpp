@@ -104,6 +104,7 @@ void loadBuffers(ImportContext& context) {
     if (buffers == context.json.end()) return;
     std::map<std::filesystem::path, std::shared_ptr<const Bytes>> files;
     for (std::size_t i = 0; i < buffers->size(); ++i) {
+        context.reach("Reading buffers", 0.3, 0.35, i, buffers->size());
         Json& json = (*buffers)[i];
         const std::string place = fmt::format("/buffers/{}", i);
         const auto byteLength = json["byteLength"].get<std::uint64_t>();
@@ -122,7 +123,7 @@ void loadBuffers(ImportContext& context) {
                 const auto path = resolveUri(context, text, uriPlace);
                 auto& file = files[path];
                 if (!file) {
-                    file = std::make_shared<const Bytes>(readFile(path, UINT64_MAX, uriPlace));
+                    file = std::make_shared<const Bytes>(readFile(path, UINT64_MAX, uriPlace, &context));
                     context.fileBytes += file->size();
                 }
                 buffer.storage = file;

@@ -173,34 +173,60 @@ std::optional<Error> Journal::append(std::string_view payload) {
     return std::exchange(syncError_, std::nullopt);
 }
 
-std::optional<Error> Journal::restart(std::uint64_t baseHash, std::string_view payload) {
+JournalDraft::~JournalDraft() {
+    if (descriptor_ < 0) return;
+    ::unlink(path_.c_str());
+    ::close(descriptor_);
+}
+
+Result<std::unique_ptr<JournalDraft>> Journal::draft(std::uint64_t baseHash,
+                                                     const std::vector<std::string>& payloads) const {
     const std::filesystem::path next = path_.string() + ".new";
     const Result<int> opened = openLocked(next, O_CREAT | O_TRUNC);
     if (!opened) return Error{opened.error()};
-    const std::string bytes = journalHead(baseHash) + journalRecord(0, payload);
-    const bool good = writeAll(opened.value(), bytes) && ::fdatasync(opened.value()) == 0 &&
-                      ::rename(next.c_str(), path_.c_str()) == 0;
-    if (!good) {
-        const Error error = systemError(path_, "write the journal");
-        ::unlink(next.c_str());
-        ::close(opened.value());
-        return error;
-    }
+    std::string bytes = journalHead(baseHash);
+    for (std::size_t i = 0; i < payloads.size(); ++i)
+        bytes += journalRecord(i, payloads[i]);
+    std::unique_ptr<JournalDraft> draft(
+        new JournalDraft(next, opened.value(), bytes.size(), payloads.size()));
+    if (!writeAll(opened.value(), bytes) || ::fdatasync(opened.value()) != 0)
+        return systemError(path_, "write the journal");
+    return draft;
+}
+
+std::optional<Error> Journal::adopt(JournalDraft& draft, const std::vector<std::string>& since) {
+    std::string bytes;
+    for (std::size_t i = 0; i < since.size(); ++i)
+        bytes += journalRecord(draft.records_ + i, since[i]);
     const std::lock_guard lock(mutex_);
+    if (!writeAll(draft.descriptor_, bytes) || ::rename(draft.path_.c_str(), path_.c_str()) != 0)
+        return systemError(path_, "write the journal");
     if (descriptor_ >= 0) ::close(descriptor_);
-    descriptor_ = opened.value();
-    bytes_ = bytes.size();
-    records_ = 1;
-    dirty_ = false;
+    descriptor_ = std::exchange(draft.descriptor_, -1);
+    bytes_ = draft.bytes_ + bytes.size();
+    records_ = draft.records_ + since.size();
+    dirty_ = !since.empty();
+    wake_.notify_all();
     return std::nullopt;
 }
 
 std::optional<Error> Journal::sync() {
-    const std::lock_guard lock(mutex_);
+    std::unique_lock lock(mutex_);
     dirty_ = false;
-    if (descriptor_ >= 0 && ::fdatasync(descriptor_) != 0)
-        return systemError(path_, "make the journal durable");
-    return std::nullopt;
+    return syncUnlocked(lock) ? std::nullopt : std::optional(systemError(path_, "make the journal durable"));
+}
+
+// The disk may take long: appending does not wait for it.
+bool Journal::syncUnlocked(std::unique_lock<std::mutex>& lock) const {
+    if (descriptor_ < 0) return true;
+    const int descriptor = ::dup(descriptor_);
+    lock.unlock();
+    const bool good = descriptor >= 0 && ::fdatasync(descriptor) == 0;
+    const int reason = errno;
+    if (descriptor >= 0) ::close(descriptor);
+    lock.lock();
+    errno = reason;
+    return good;
 }
 
 void Journal::syncLoop() {
@@ -211,13 +237,7 @@ void Journal::syncLoop() {
         wake_.wait_for(lock, std::chrono::milliseconds(kSyncDelayMs), [this] { return stopping_; });
         if (!dirty_ || descriptor_ < 0) continue;
         dirty_ = false;
-        const int descriptor = ::dup(descriptor_);
-        lock.unlock(); // the disk may take long, appending must not wait for it
-        const bool good = descriptor >= 0 && ::fdatasync(descriptor) == 0;
-        const Error error = good ? Error{} : systemError(path_, "make the journal durable");
-        if (descriptor >= 0) ::close(descriptor);
-        lock.lock();
-        if (!good) syncError_ = error;
+        if (!syncUnlocked(lock)) syncError_ = systemError(path_, "make the journal durable");
     }
 }
 

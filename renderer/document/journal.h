@@ -33,6 +33,23 @@ Result<JournalContent> parseJournal(std::string_view bytes);
 std::string journalHead(std::uint64_t baseHash);
 std::string journalRecord(std::uint64_t number, std::string_view payload);
 
+// A new journal beside an open one, whole and durable, that waits to take its place.
+class JournalDraft {
+  public:
+    ~JournalDraft(); // removes what nobody took
+    JournalDraft(const JournalDraft&) = delete;
+    JournalDraft& operator=(const JournalDraft&) = delete;
+
+  private:
+    friend class Journal;
+    JournalDraft(std::filesystem::path path, int descriptor, std::uint64_t bytes, std::uint64_t records)
+        : path_(std::move(path)), descriptor_(descriptor), bytes_(bytes), records_(records) {}
+
+    std::filesystem::path path_;
+    int descriptor_; // -1: taken
+    std::uint64_t bytes_, records_;
+};
+
 // A journal that is open for appending, by one process at a time.
 class Journal {
   public:
@@ -52,11 +69,14 @@ class Journal {
     // against loss of power within kSyncDelayMs. A record that could not be written leaves no trace.
     std::optional<Error> append(std::string_view payload);
 
-    // Starts anew with one record: what came before is not needed any more. The file is replaced whole; on
-    // failure it goes on as it was.
-    std::optional<Error> restart(std::uint64_t baseHash, std::string_view payload);
+    // Starts anew with other records: what came before is not needed any more. The file is replaced whole;
+    // on failure it goes on as it was. Writing the draft waits for the disk, adopting it, with the records
+    // that came meanwhile, does not.
+    Result<std::unique_ptr<JournalDraft>> draft(std::uint64_t baseHash,
+                                                const std::vector<std::string>& payloads) const;
+    std::optional<Error> adopt(JournalDraft& draft, const std::vector<std::string>& since);
 
-    // Waits until everything is durable.
+    // Waits until everything so far is durable; others can append meanwhile.
     std::optional<Error> sync();
 
     // Closes and removes the file: nothing is left to recover.
@@ -70,6 +90,7 @@ class Journal {
     Journal(std::filesystem::path path, int descriptor, std::uint64_t bytes, std::uint64_t records);
     static Result<int> openLocked(const std::filesystem::path& path, int flags);
     void syncLoop();
+    bool syncUnlocked(std::unique_lock<std::mutex>& lock) const;
 
     std::filesystem::path path_;
     int descriptor_ = -1;

@@ -153,6 +153,7 @@ void Commands::beginPass(std::string_view name) {
     if (inPass_) failContract(fmt::format("pass '{}' begins inside another", name));
     inPass_ = true;
     passName_ = name;
+    if (tellPass_) tellPass_(passName_);
     if (times_ && !queries_) submitOpen(); // wall timing: nothing before may run inside this pass
     if (device_.options().commandBufferPerPass) closeBuffer();
     const std::string label(name);
@@ -180,7 +181,9 @@ void Commands::endPass() {
         timers_.clear();
     }
     if (sliceMs_ <= 0.0) return;
-    openedMs_ += times_ ? times_->newestMs(passName_) : sliceMs_;
+    // A pass that has never run may have to be compiled: it is a slice of its own.
+    const double knownMs = times_ ? times_->newestMs(passName_) : 0.0;
+    openedMs_ += knownMs > 0.0 ? knownMs : sliceMs_;
     if (openedMs_ < sliceMs_) return;
     submitOpen();
     openedMs_ = 0.0;

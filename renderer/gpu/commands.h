@@ -5,6 +5,7 @@
 #include "resource.h"
 
 #include <atomic>
+#include <functional>
 #include <map>
 
 namespace kilolux::gpu {
@@ -93,6 +94,8 @@ class Commands {
     // Submits and waits whenever passes of together about `sliceMs` have been recorded, by what PassTimes
     // knows of them, and throws Interrupted there once `interrupt` is set. One pass is never divided.
     void submitInSlices(double sliceMs, const std::atomic<bool>* interrupt);
+    // Called with the name of every pass that begins.
+    void onPass(std::function<void(const std::string&)> tell) { tellPass_ = std::move(tell); }
 
     VkDescriptorSet allocateSet(VkDescriptorSetLayout layout);
 
@@ -141,6 +144,7 @@ class Commands {
     double sliceMs_ = 0.0;  // 0: one submission
     double openedMs_ = 0.0; // expected of the passes since the last one
     const std::atomic<bool>* interrupt_ = nullptr;
+    std::function<void(const std::string&)> tellPass_;
     struct PendingCapture {
         Captured result;
         Buffer staging;

@@ -95,6 +95,7 @@ PassBase::~PassBase() {
 }
 
 void PassBase::build(const std::vector<ShaderCode*>& stages) {
+    resources_.tellCompiled(name_);
     assignBindings(stages);
     bindings_.clear();
     constants_.clear();

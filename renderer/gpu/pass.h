@@ -85,11 +85,17 @@ class PassResources {
     explicit PassResources(Device& device);
     ~PassResources();
     Device& device() { return device_; }
+    // Called with a pass's name when its shaders have been compiled; whoever waits may throw Interrupted.
+    void onCompiled(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+    void tellCompiled(const std::string& pass) const {
+        if (tell_) tell_(pass);
+    }
     VkSampler sampler(SamplerKind kind);
     Binding dummy(const ShaderBinding& binding);
 
   private:
     Device& device_;
+    std::function<void(const std::string&)> tell_;
     std::map<SamplerKind, VkSampler> samplers_;
     std::map<std::string, std::unique_ptr<Image>> images_;
     std::map<std::string, std::unique_ptr<Buffer>> buffers_;

@@ -3,7 +3,6 @@
 import json
 import os
 import subprocess
-import time
 
 from window_case import WindowCase, gltf_json, main
 from window_driver import MIDDLE, RIGHT, WHEEL_UP, wait_for
@@ -86,16 +85,7 @@ class CameraMoves(WindowCase):
         window, _ = self.open_scene()
         window.wait(lambda s: s["picture"]["settled"], "the picture to settle")
 
-        def cpu():
-            with open(f"/proc/{window.process.pid}/stat") as file:
-                fields = file.read().rsplit(")", 1)[1].split()
-            return int(fields[11]) + int(fields[12])  # ticks of user and system
-        # The share of one processor over a second, tried again where something else woke the window.
-        def idle():
-            before = cpu()
-            time.sleep(1.0)
-            return cpu() - before <= 0.05 * os.sysconf("SC_CLK_TCK")
-        wait_for(idle, "an idle second", 20)
+        wait_for(window.rests, "rest", 20)
 
 
 class Documents(WindowCase):

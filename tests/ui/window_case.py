@@ -63,8 +63,8 @@ class WindowCase(unittest.TestCase):
         shutil.copy(os.path.join(ROOT, "content", "scenes", name), path)
         return path
 
-    def start(self, scene=None, size=None, arguments=()):
-        window = Window(self.program, self.screen, scene, self.home, size or self.size, arguments)
+    def start(self, scene=None, size=None, arguments=(), environment=None):
+        window = Window(self.program, self.screen, scene, self.home, size or self.size, arguments, environment)
         self.windows.append(window)
         return window
 

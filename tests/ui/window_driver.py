@@ -111,8 +111,11 @@ class Screen:
                     return window
         return None
 
+    def titled(self, title):
+        return wait_for(lambda: self._titled(title), f"a window '{title}'")
+
     def resize(self, title, width, height):
-        window = wait_for(lambda: self._titled(title), f"a window '{title}'")
+        window = self.titled(title)
         self.x11.XMoveResizeWindow(self.display, ctypes.c_ulong(window), 0, 0, width, height)
         self.flush()
 
@@ -157,18 +160,18 @@ def write_png(path, width, rows):
 class Window:
     """One run of the program with a home of its own."""
 
-    def __init__(self, program, screen, scene=None, home=None, size=(1280, 720), arguments=()):
+    def __init__(self, program, screen, scene=None, home=None, size=(1280, 720), arguments=(), environment=None):
         self.screen = screen
         self.ownsHome = home is None
         self.home = home or tempfile.mkdtemp(prefix="kilolux-home-")
         self.stateFile = os.path.join(self.home, "state.json")
         if os.path.exists(self.stateFile):
             os.remove(self.stateFile)
-        environment = dict(os.environ, DISPLAY=screen.name, XDG_CONFIG_HOME=os.path.join(self.home, "config"),
-                           XDG_STATE_HOME=os.path.join(self.home, "state"))
+        variables = dict(os.environ, DISPLAY=screen.name, XDG_CONFIG_HOME=os.path.join(self.home, "config"),
+                           XDG_STATE_HOME=os.path.join(self.home, "state"), **(environment or {}))
         self.log = open(os.path.join(self.home, "log"), "a+")
         command = [program, "edit", "--state", self.stateFile, "--size", f"{size[0]}x{size[1]}", *arguments]
-        self.process = subprocess.Popen(command + ([scene] if scene else []), env=environment,
+        self.process = subprocess.Popen(command + ([scene] if scene else []), env=variables,
                                         stdout=self.log, stderr=self.log)
         self.wait(lambda s: True, "the window")
 
@@ -210,6 +213,16 @@ class Window:
     def settle(self):
         """Until the frames that the events so far called for have been drawn."""
         self.wait(lambda s: s["framesDue"] == 0, "the window to come to rest")
+
+    def rests(self):
+        """Looks for half a second whether the program uses less than a twentieth of a processor."""
+        def ticks():
+            with open(f"/proc/{self.process.pid}/stat") as file:
+                fields = file.read().rsplit(")", 1)[1].split()
+            return int(fields[11]) + int(fields[12])  # of user and system
+        before = ticks()
+        time.sleep(0.5)
+        return ticks() - before <= 0.025 * os.sysconf("SC_CLK_TCK")
 
     def screenshot(self, path, rect=None):
         width, height, rows = self.screen.pixels()
