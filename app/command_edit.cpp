@@ -46,7 +46,14 @@ const char* kindWord(FieldKind kind) {
         return "three numbers";
     case FieldKind::Type:
     case FieldKind::Unit:
+    case FieldKind::Word:
         return "word";
+    case FieldKind::Profile:
+        return "profile's file or null";
+    case FieldKind::Picture:
+        return "picture's file or null";
+    case FieldKind::Channels:
+        return "bits, 0 to 255";
     case FieldKind::Transform:
         return "translation, rotation, scale";
     case FieldKind::Frame:
@@ -63,8 +70,9 @@ const char* targetWord(EditTarget target) {
     switch (target) {
     case EditTarget::Light:
     case EditTarget::Definition:
-    case EditTarget::Node:
         return "light";
+    case EditTarget::Node:
+        return "node";
     case EditTarget::Group:
         return "group";
     case EditTarget::Bookmark:

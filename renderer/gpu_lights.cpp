@@ -57,12 +57,16 @@ glm::vec2 shapingOf(const LightDef& def) {
 // What the light has beside cone and range; nothing for most.
 std::optional<shared::LightShaping> makeShaping(const LightDef& def) {
     shared::LightShaping shaping{};
-    if (def.type == LightType::Rect && def.barnDoorLengthM > 0.0) {
-        const double angle = std::clamp(def.barnDoorAngleRad, 0.0, glm::half_pi<double>());
-        shaping.doorReachM = glm::vec4(float(def.barnDoorLengthM * std::sin(angle)));
+    for (int i = 0; i < 4 && def.type == LightType::Rect; ++i) {
+        // The document has the top before the bottom.
+        constexpr BarnDoorSide kSides[] = {BarnDoorSide::Left, BarnDoorSide::Right, BarnDoorSide::Bottom,
+                                           BarnDoorSide::Top};
+        const BarnDoor& door = def.barnDoors[std::size_t(kSides[i])];
+        const double angle = std::clamp(door.angleRad, 0.0, glm::half_pi<double>());
+        shaping.doorReachM[i] = float(door.lengthM * std::sin(angle));
         // A flap in the light's own plane hides nothing.
-        const double depthM = def.barnDoorLengthM * std::cos(angle);
-        shaping.doorDepthM = glm::vec4(depthM > 1e-6 * def.barnDoorLengthM ? float(depthM) : 0.0f);
+        const double depthM = door.lengthM * std::cos(angle);
+        shaping.doorDepthM[i] = depthM > 1e-6 * door.lengthM ? float(depthM) : 0.0f;
     }
     if (shaping.doorDepthM == glm::vec4(0.0f)) return {};
     return shaping;

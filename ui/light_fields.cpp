@@ -1,5 +1,7 @@
 #include "ui/light_fields.h"
 
+#include "renderer/document/light_properties.h"
+#include "renderer/document/light_units.h"
 #include "ui/change_builder.h"
 #include "ui/light_place.h"
 
@@ -11,15 +13,35 @@ namespace kilolux {
 namespace {
 
 constexpr std::uint32_t bit(LightType type) {
-    return 1u << unsigned(type);
+    return typeBit(type);
 }
-constexpr std::uint32_t kAll = 0x3f;
-constexpr std::uint32_t kLocal = kAll & ~bit(LightType::Directional);
-constexpr std::uint32_t kRound = bit(LightType::Sphere) | bit(LightType::Spot) | bit(LightType::Tube);
+using properties::kAll, properties::kLocal, properties::kRound;
+constexpr std::uint32_t kRect = properties::kRect;
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kMinTubeRadiusM = 0.001;
 
 using enum Quantity;
+
+bool hasDoors(const LightDef& def) {
+    return std::any_of(def.barnDoors.begin(), def.barnDoors.end(),
+                       [](const BarnDoor& door) { return door.lengthM > 0.0; });
+}
+bool hasProfile(const LightDef& def) {
+    return !def.iesUri.empty();
+}
+bool hasProfileIntensity(const LightDef& def) {
+    return isShapedByProfile(def) && def.iesIntensity;
+}
+bool hasFunction(const LightDef& def) {
+    return def.function.kind != LightFunctionKind::None;
+}
+bool hasImage(const LightDef& def) {
+    return def.function.kind == LightFunctionKind::Image;
+}
+bool hasMotion(const LightDef& def) {
+    return def.function.kind == LightFunctionKind::Caustics ||
+           def.function.kind == LightFunctionKind::Flicker;
+}
 
 // One pixel of dragging: half a centimetre, a quarter of a degree, 10 K.
 constexpr LightField kFields[] = {
@@ -39,14 +61,62 @@ constexpr LightField kFields[] = {
      "Half angle from which it is dark, at most 90\u00b0"},
     {LightSection::Shaping, "Range", "rangeM", Length, kLocal, 0.05,
      "Where the light ends smoothly; 'auto': by its intensity"},
-    {LightSection::Shaping, "Barn door angle", "barnDoorAngleRad", Angle, bit(LightType::Rect),
-     0.25 * kDegree, "90\u00b0 is open"},
-    {LightSection::Shaping, "Barn door length", "barnDoorLengthM", Length, bit(LightType::Rect), 0.005,
-     "0 is without doors"},
+    {LightSection::Shaping, "Barn doors", "barnDoorAngleRad", Angle, kRect, 0.25 * kDegree,
+     "Angle of all four flaps: 0\u00b0 is along the beam, 90\u00b0 open"},
+    {LightSection::Shaping, "Door length", "barnDoorLengthM", Length, kRect, 0.005,
+     "Of all four flaps; 0 is without doors"},
+    {LightSection::Shaping, "Left flap", "barnDoorLeftAngleRad", Angle, kRect, 0.25 * kDegree,
+     "At local -X; 90\u00b0 is open", hasDoors},
+    {LightSection::Shaping, "Left length", "barnDoorLeftLengthM", Length, kRect, 0.005,
+     "0 is without this flap", hasDoors},
+    {LightSection::Shaping, "Right flap", "barnDoorRightAngleRad", Angle, kRect, 0.25 * kDegree,
+     "At local +X; 90\u00b0 is open", hasDoors},
+    {LightSection::Shaping, "Right length", "barnDoorRightLengthM", Length, kRect, 0.005,
+     "0 is without this flap", hasDoors},
+    {LightSection::Shaping, "Top flap", "barnDoorTopAngleRad", Angle, kRect, 0.25 * kDegree,
+     "At local +Y; 90\u00b0 is open", hasDoors},
+    {LightSection::Shaping, "Top length", "barnDoorTopLengthM", Length, kRect, 0.005,
+     "0 is without this flap", hasDoors},
+    {LightSection::Shaping, "Bottom flap", "barnDoorBottomAngleRad", Angle, kRect, 0.25 * kDegree,
+     "At local -Y; 90\u00b0 is open", hasDoors},
+    {LightSection::Shaping, "Bottom length", "barnDoorBottomLengthM", Length, kRect, 0.005,
+     "0 is without this flap", hasDoors},
+    {LightSection::Shaping, "Source texture", "sourceTexture", Number, kRect, 0.0,
+     "A picture on its face, top towards local +Y"},
+    {LightSection::Profile, "IES profile", "iesProfile", Number, kLocal, 0.0,
+     "Where the light goes, as measured of a luminaire"},
+    {LightSection::Profile, "Used as", "iesUse", Number, kLocal, 0.0,
+     "Shape: the light emits as the profile says; mask: the profile dims what it emits", hasProfile},
+    {LightSection::Profile, "Its intensity", "iesIntensity", Number, kLocal, 0.0,
+     "The profile's candela in place of the light's own intensity", isShapedByProfile},
+    {LightSection::Profile, "Multiplier", "iesMultiplier", Number, kLocal, 0.0, "Of the profile's candela",
+     hasProfileIntensity},
+    {LightSection::Function, "Light function", "lightFunction", Number, kAll, 0.0,
+     "A mask that the light shines through"},
+    {LightSection::Function, "Image", "lightFunctionImage", Number, kAll, 0.0, "The mask's image", hasImage},
+    {LightSection::Function, "Scale", "lightFunctionScale", Length, kAll, 0.0, "Of the pattern, 1 m ahead",
+     hasFunction},
+    {LightSection::Function, "Turn", "lightFunctionAngleRad", Angle, kAll, 0.5 * kDegree,
+     "About the light's axis", hasFunction},
+    {LightSection::Function, "Softness", "lightFunctionSoftness", Number, kAll, 0.005, "Of its edges, 0 to 1",
+     hasFunction},
+    {LightSection::Function, "Strength", "lightFunctionStrength", Number, kAll, 0.005,
+     "0 is without the mask, 1 is all of it", hasFunction},
+    {LightSection::Function, "Seed", "lightFunctionSeed", Number, kAll, 0.1, "Which of the patterns",
+     hasMotion},
+    {LightSection::Function, "Speed", "lightFunctionSpeed", Number, kAll, 0.01, "0 stands still", hasMotion},
     {LightSection::Colour, "Temperature", "temperatureK", Temperature, kAll, 10.0,
      "1000 to 40000 K, 6500 K is neutral; 'none': the tint alone"},
+    {LightSection::Colour, "Exposure", "exposureEv", Exposure, kAll, 0.01,
+     "A factor on all that it emits, in stops"},
     {LightSection::Shadow, "Ray end bias", "rayEndBiasM", Length, kLocal, 0.002,
      "Shadow rays end this far before the light, past its fixture"},
+    {LightSection::Shadow, "Penumbra", "penumbraScale", Number, kAll, 0.005,
+     "Of the source's size as shadows see it: below 1 they are sharper, above softer"},
+    {LightSection::Visibility, "Channels", "channels", Number, kAll, 0.0,
+     "The light reaches meshes that share one of them"},
+    {LightSection::Visibility, "Others cast", "channelsCast", Number, kAll, 0.0,
+     "Meshes that it does not reach cast its shadow all the same"},
 };
 
 struct Target {
@@ -128,8 +198,10 @@ std::span<const LightField> lightFields() {
 }
 
 bool allHave(const Scene& scene, std::span<const std::uint64_t> lights, const LightField& field) {
-    return std::all_of(lights.begin(), lights.end(),
-                       [&](std::uint64_t light) { return field.types & bit(defOf(scene, light).type); });
+    return std::all_of(lights.begin(), lights.end(), [&](std::uint64_t light) {
+        const LightDef& def = defOf(scene, light);
+        return (field.types & bit(def.type)) && (!field.shows || field.shows(def));
+    });
 }
 
 CommonValue commonValue(const Scene& scene, std::span<const std::uint64_t> lights, std::string_view name) {
@@ -141,8 +213,19 @@ CommonValue commonValue(const Scene& scene, std::span<const std::uint64_t> light
         return field->get(scene, ofDefinition ? std::uint64_t(lightOf(scene, light).def) : light);
     };
     common.value = valueOf(lights[0]);
-    common.mixed = std::any_of(lights.begin() + 1, lights.end(),
-                               [&](std::uint64_t light) { return !sameValue(common.value, valueOf(light)); });
+    // One pair of doors stands for four flaps, which may differ.
+    if (field->isShorthand) {
+        common.mixed = std::any_of(lights.begin(), lights.end(), [&](std::uint64_t light) {
+            const auto& doors = defOf(scene, light).barnDoors;
+            return std::any_of(doors.begin(), doors.end(), [&](const BarnDoor& door) {
+                return name == "barnDoorAngleRad" ? door.angleRad != doors[0].angleRad
+                                                  : door.lengthM != doors[0].lengthM;
+            });
+        });
+    }
+    common.mixed = common.mixed || std::any_of(lights.begin() + 1, lights.end(), [&](std::uint64_t light) {
+                       return !sameValue(common.value, valueOf(light));
+                   });
     return common;
 }
 

@@ -9,20 +9,30 @@
 
 namespace kilolux {
 
-enum class LightSection : std::uint8_t { Light, Shape, Shaping, Colour, Shadow };
+enum class LightSection : std::uint8_t {
+    Light,
+    Shape,
+    Shaping,
+    Profile,
+    Function,
+    Colour,
+    Shadow,
+    Visibility
+};
 
 struct LightField {
     LightSection section;
     const char* label;
-    const char* field; // of edit_fields
-    Quantity quantity;
+    const char* field;   // of edit_fields
+    Quantity quantity;   // of a number
     std::uint32_t types; // bits 1 << LightType that have it
     double step;         // what one pixel of dragging adds, as inside; 0: one pixel is a factor
     const char* help;
+    bool (*shows)(const LightDef&) = nullptr; // only where this holds; null: always
 };
 std::span<const LightField> lightFields();
 
-// Whether all these lights have the field.
+// Whether all these lights have the field, and it does something there.
 bool allHave(const Scene& scene, std::span<const std::uint64_t> lights, const LightField& field);
 
 // What several lights have in a field: one value, or different ones.

@@ -7,6 +7,7 @@
 #include "ui/widgets.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/gtc/constants.hpp>
 #include <imgui.h>
 
@@ -67,24 +68,17 @@ void drawCone(ImDrawList& canvas, const Viewport& viewport, const LightDef& def,
     if (def.innerConeRad > 0.0) ring(def.innerConeRad, (theme::kAccent & 0x00ffffffu) | 0x40000000u, false);
 }
 
-// The four flaps of a rectangle with barn doors.
+// The flaps of a rectangle with barn doors, each hinged to its edge.
 void drawDoors(ImDrawList& canvas, const Viewport& viewport, const LightDef& def, const glm::dvec3& center,
                const glm::dmat3& axes) {
-    if (def.barnDoorLengthM <= 0.0) return;
     const ScreenMap map(viewport);
-    const double out = def.barnDoorLengthM * std::cos(def.barnDoorAngleRad);
-    const double ahead = def.barnDoorLengthM * std::sin(def.barnDoorAngleRad);
-    const glm::dvec2 half(0.5 * def.widthM, 0.5 * def.heightM);
     for (int side = 0; side < 4; ++side) {
-        const bool horizontal = side < 2;
-        const double sign = side % 2 == 0 ? 1.0 : -1.0;
+        if (def.barnDoors[std::size_t(side)].lengthM <= 0.0) continue;
         ImVec2 corners[4];
         bool inFront = true;
-        for (int i = 0; i < 4; ++i) {
-            const double along = (i == 0 || i == 3) ? -1.0 : 1.0, far = i >= 2 ? 1.0 : 0.0;
-            glm::dvec3 p(horizontal ? sign * (half.x + far * out) : along * half.x,
-                         horizontal ? along * half.y : sign * (half.y + far * out), -far * ahead);
-            const ScreenMap::Point at = map.project(center + axes * p);
+        const std::array<glm::dvec3, 4> flap = barnDoorCorners(def, BarnDoorSide(side));
+        for (std::size_t i = 0; i < 4; ++i) {
+            const ScreenMap::Point at = map.project(center + axes * flap[i]);
             inFront = inFront && at.inFront;
             corners[i] = im(glm::vec2(at.px));
         }

@@ -171,13 +171,20 @@ void drawSections(Desk& desk, PropertiesState& state) {
         drawTable(desk, state, LightSection::Shape);
     if (hasAny(state, LightSection::Shaping) && beginSection(desk, "Shaping"))
         drawTable(desk, state, LightSection::Shaping);
+    if (hasAny(state, LightSection::Profile) && beginSection(desk, "Profile"))
+        drawTable(desk, state, LightSection::Profile);
+    if (hasAny(state, LightSection::Function) && beginSection(desk, "Light function"))
+        drawTable(desk, state, LightSection::Function);
     if (beginSection(desk, "Colour")) {
         drawTintRow(desk);
         drawTable(desk, state, LightSection::Colour);
     }
     if (hasAny(state, LightSection::Shadow) && beginSection(desk, "Shadow"))
         drawTable(desk, state, LightSection::Shadow);
-    if (beginSection(desk, "Visibility")) drawVisibility(desk, state);
+    if (beginSection(desk, "Visibility")) {
+        drawVisibility(desk, state);
+        drawTable(desk, state, LightSection::Visibility);
+    }
     const CommonValue group = valueOf(desk, "group");
     const std::uint64_t id = std::get<std::uint64_t>(group.value);
     if (!group.mixed && id != 0 && beginSection(desk, "Group")) drawGroupRows(desk, id);

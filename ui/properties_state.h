@@ -18,6 +18,7 @@ struct PropertiesState {
     std::map<std::string_view, CommonValue> values; // by field
     std::array<CommonValue, 6> coordinates;         // position and angles; without a value: not read yet
     std::vector<bool> applies;                      // lightFields() that all have
+    std::vector<std::string> fileChoices;           // of the open choice of a file
     glm::dvec3 eulerRad{0.0};                       // as shown, so that angles do not jump to their twins
 
     // Typing: the field's id, and what is in it.

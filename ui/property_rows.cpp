@@ -4,6 +4,7 @@
 #include "renderer/document/light_words.h"
 #include "ui/light_actions.h"
 #include "ui/light_place.h"
+#include "ui/shaping_rows.h"
 #include "ui/text_case.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -205,27 +206,7 @@ std::optional<glm::dvec3> colorField(Desk& desk, const std::string& id, const Co
     return typed.value();
 }
 
-} // namespace
-
-float rowLabel(Desk& desk, const char* label, const char* help) {
-    const float whole = ImGui::GetContentRegionAvail().x;
-    const float labels = std::min(px(desk, 108), 0.42f * whole);
-    const float x = ImGui::GetCursorPosX();
-    ImGui::AlignTextToFramePadding();
-    textWithin(label, labels - px(desk, 4));
-    if (help) tooltip(help);
-    ImGui::SameLine(x + labels);
-    return whole - labels;
-}
-
-const CommonValue& valueOf(Desk& desk, const char* field) {
-    PropertiesState& state = propertiesOf(desk);
-    const auto [at, isNew] = state.values.try_emplace(field);
-    if (isNew) at->second = commonValue(desk.session->scene(), state.selection, field);
-    return at->second;
-}
-
-void drawFieldRow(Desk& desk, const LightField& row) {
+void drawNumberRow(Desk& desk, const LightField& row) {
     PropertiesState& state = propertiesOf(desk);
     const bool isIntensity = row.quantity == Quantity::Intensity;
     const CommonValue value = valueOf(desk, row.field);
@@ -254,6 +235,42 @@ void drawFieldRow(Desk& desk, const LightField& row) {
     if (applyEdits(desk, edits, stepName(desk, row.label), dragged ? dragKey(state) : "") && dragged &&
         !edits.value().empty())
         noteDragged(desk);
+}
+
+} // namespace
+
+float rowLabel(Desk& desk, const char* label, const char* help) {
+    const float whole = ImGui::GetContentRegionAvail().x;
+    const float labels = std::min(px(desk, 108), 0.42f * whole);
+    const float x = ImGui::GetCursorPosX();
+    ImGui::AlignTextToFramePadding();
+    textWithin(label, labels - px(desk, 4));
+    if (help) tooltip(help);
+    ImGui::SameLine(x + labels);
+    return whole - labels;
+}
+
+const CommonValue& valueOf(Desk& desk, const char* field) {
+    PropertiesState& state = propertiesOf(desk);
+    const auto [at, isNew] = state.values.try_emplace(field);
+    if (isNew) at->second = commonValue(desk.session->scene(), state.selection, field);
+    return at->second;
+}
+
+void drawFieldRow(Desk& desk, const LightField& row) {
+    switch (findLightField(row.field)->kind) {
+    case FieldKind::Flag:
+        return drawFlagRow(desk, row);
+    case FieldKind::Word:
+        return drawWordRow(desk, row);
+    case FieldKind::Channels:
+        return drawChannelsRow(desk, row);
+    case FieldKind::Profile:
+    case FieldKind::Picture:
+        return drawFileRow(desk, row);
+    default:
+        return drawNumberRow(desk, row);
+    }
 }
 
 void drawPlaceRows(Desk& desk) {

@@ -1,6 +1,8 @@
 #include "renderer/document/edit.h"
 
 #include "renderer/document/edit_rules.h"
+#include "renderer/document/light_properties.h"
+#include "renderer/document/scene_files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,17 +19,15 @@ bool equal(const LightNode& a, const LightNode& b) {
 }
 // Where a definition stands in the file is no part of what it is: saving may move it.
 bool equal(const LightDef& a, const LightDef& b) {
-    return a.name == b.name && a.type == b.type && a.intensity == b.intensity && a.unit == b.unit &&
-           a.color == b.color && a.temperatureK == b.temperatureK && a.rangeM == b.rangeM &&
-           a.radiusM == b.radiusM && a.lengthM == b.lengthM && a.widthM == b.widthM &&
-           a.heightM == b.heightM && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad &&
-           a.angularDiameterRad == b.angularDiameterRad && a.barnDoorAngleRad == b.barnDoorAngleRad &&
-           a.barnDoorLengthM == b.barnDoorLengthM && a.rayEndBiasM == b.rayEndBiasM;
+    bool same = a.name == b.name && a.type == b.type && a.intensity == b.intensity && a.unit == b.unit &&
+                a.color == b.color && a.innerConeRad == b.innerConeRad && a.outerConeRad == b.outerConeRad;
+    forEachLightProperty([&](const auto& each) { same = same && each.access(a) == each.access(b); });
+    return same;
 }
 bool equal(const Node& a, const Node& b) {
     const bool sameRest = a.restTrs && b.restTrs ? *a.restTrs == *b.restTrs : !a.restTrs && !b.restTrs;
     return a.id == b.id && a.name == b.name && a.parent == b.parent && a.localFromNode == b.localFromNode &&
-           sameRest && a.mesh == b.mesh && a.visible == b.visible;
+           sameRest && a.mesh == b.mesh && a.meshChannels == b.meshChannels && a.visible == b.visible;
 }
 bool equal(const LightGroup& a, const LightGroup& b) {
     return a.id == b.id && a.name == b.name && a.intensity == b.intensity && a.exposureEv == b.exposureEv &&
@@ -118,7 +118,10 @@ bool putWhole(Scene& scene, const Edit& edit) {
     case EditTarget::Light:
         return putById(scene.lights.write(), edit.id, edit.after);
     case EditTarget::Definition:
-        return putAtEnd(scene.lightDefs.write(), edit.id, edit.after);
+        if (!putAtEnd(scene.lightDefs.write(), edit.id, edit.after)) return false;
+        // From a journal or as text it comes without what its URIs name.
+        if (edit.id < scene.lightDefs.size()) loadFiles(scene.files.get(), scene.lightDefs[edit.id]);
+        return true;
     case EditTarget::Node:
         return putAtEnd(scene.nodes.write(), edit.id, edit.after);
     case EditTarget::Group:
@@ -223,7 +226,8 @@ std::optional<Error> applyInPlace(Scene& scene, const Edit& edit) {
             return Error{placeOf(scene, edit) + ": expected the state that the edit was made for"};
         return std::nullopt;
     }
-    if (edit.field->target != edit.target || !targetExists(scene, edit.target, edit.id))
+    if (edit.field->isShorthand || edit.field->target != edit.target ||
+        !targetExists(scene, edit.target, edit.id))
         return Error{placeOf(scene, edit) + ": expected something that exists"};
     if (std::optional<Error> error = checkValue(*edit.field, edit.after))
         return Error{placeOf(scene, edit) + ": " + error->message};

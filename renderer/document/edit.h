@@ -34,6 +34,10 @@ enum class FieldKind : std::uint8_t {
     Color,     // three numbers from 0 up
     Type,      // a word of kLightTypeWords
     Unit,      // a word of kLightUnitWords
+    Word,      // one of EditField::words
+    Profile,   // URI of a photometric profile; empty: none
+    Picture,   // URI of an image; empty: none
+    Channels,  // bits 0 to 7
     Transform, // Trs; a dmat4 where the file gives the node's matrix
     Frame,     // dmat4 without scale
     GroupId,   // LightGroup::id; 0 is none
@@ -52,6 +56,9 @@ struct EditField {
     const char* help = "";
     EditValue (*get)(const Scene&, std::uint64_t id) = nullptr; // the object exists
     void (*set)(Scene&, std::uint64_t id, const EditValue&) = nullptr;
+    std::span<const char* const> words = {}; // of a Word
+    // Stands for several other fields and sets them all; reads as the first of them. An edit is of those.
+    bool isShorthand = false;
 };
 std::span<const EditField> editFields();
 const EditField* findEditField(EditTarget target, std::string_view name); // null: there is none

@@ -2,6 +2,7 @@
 
 #include "renderer/document/edit_rules.h"
 #include "renderer/document/light_units.h"
+#include "renderer/document/scene_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,10 +40,17 @@ LightDef withCompanions(const LightDef& before, LightDef def, const EditField& f
         }
     }
     if (name == "outerConeRad") def.innerConeRad = std::min(def.innerConeRad, def.outerConeRad);
-    if (name == "unit" && unitApplies(def, def.unit)) {
-        const double converted = intensityIn(before, def.unit);
+    // Leaving the profile's candela keeps the light as bright as it was.
+    const bool ownsIntensity = name == "iesIntensity" && !def.iesIntensity && def.ies;
+    if ((name == "unit" || ownsIntensity) && unitApplies(def, def.unit)) {
+        const double converted = ownsIntensity ? fromBaseIntensity(def, baseIntensity(before), def.unit)
+                                               : intensityIn(before, def.unit);
         if (std::isfinite(converted)) def.intensity = converted;
     }
+    // A profile that does nothing yet becomes the light's shape; what is chosen is meant to be seen.
+    if (name == "iesProfile" && !def.iesUri.empty() && def.iesUse == IesUse::None) def.iesUse = IesUse::Shape;
+    if (name == "lightFunctionImage" && !def.function.imageUri.empty())
+        def.function.kind = LightFunctionKind::Image;
     return def;
 }
 
@@ -51,18 +59,32 @@ void appendDifferences(const Scene& scene, int index, const LightDef& after, Edi
     Scene target; // the fields read from a scene
     target.lightDefs = {after};
     for (const EditField& field : editFields()) {
-        if (field.target != EditTarget::Definition) continue;
+        if (field.target != EditTarget::Definition || field.isShorthand) continue;
         EditValue value = field.get(target, 0);
         Edit edit = fieldEdit(scene, field, static_cast<std::uint64_t>(index), std::move(value));
         if (!sameValue(edit.before, edit.after)) edits.push_back(std::move(edit));
     }
 }
 
-LightDef withField(const LightDef& def, const EditField& field, const EditValue& value) {
+LightDef withField(const Scene& scene, const LightDef& def, const EditField& field, const EditValue& value) {
     Scene one;
+    one.files = scene.files;
     one.lightDefs = {def};
     field.set(one, 0, value);
     return withCompanions(def, std::as_const(one).lightDefs[0], field);
+}
+
+// A file that is chosen must be there. One that is gone later is told when the scene is opened.
+std::optional<Error> checkFile(const Scene& scene, const EditField& field, const EditValue& value) {
+    if (!scene.files || (field.kind != FieldKind::Profile && field.kind != FieldKind::Picture))
+        return std::nullopt;
+    const std::string& uri = std::get<std::string>(value);
+    if (field.kind == FieldKind::Profile) {
+        const auto profile = scene.files->profile(uri);
+        return profile ? std::nullopt : std::optional<Error>(Error{profile.error()});
+    }
+    const auto image = scene.files->image(uri);
+    return image ? std::nullopt : std::optional<Error>(Error{image.error()});
 }
 
 std::uint64_t indexOf(std::size_t size) {
@@ -110,12 +132,13 @@ Result<Edits> setField(const Scene& scene, EditTarget target, std::uint64_t id, 
         if (isMatrix) value = matrixFrom(*trs);
     }
     if (const std::optional<Error> error = checkValue(field, value)) return at(error->message);
+    if (const std::optional<Error> error = checkFile(scene, field, value)) return at(error->message);
     if (target != EditTarget::Light || field.target != EditTarget::Definition) {
         Edit edit = fieldEdit(scene, field, id, std::move(value));
         return sameValue(edit.before, edit.after) ? Edits{} : Edits{std::move(edit)};
     }
     const int index = scene.lights[findLight(scene, id)].def;
-    const LightDef after = withField(scene.lightDefs[index], field, value);
+    const LightDef after = withField(scene, scene.lightDefs[index], field, value);
     Edits edits;
     if (sharing == Sharing::EditAll || userCount(scene, index) == 1) {
         appendDifferences(scene, index, after, edits);

@@ -1,6 +1,7 @@
 #include "renderer/document/edit_json.h"
 
 #include "renderer/document/json_members.h"
+#include "renderer/document/light_properties.h"
 
 #include <algorithm>
 
@@ -59,12 +60,9 @@ void visitLight(Io&& io, Light& light) {
 template<typename Io, typename Def>
 void visitDef(Io&& io, Def& def) {
     io("name", def.name), io("type", def.type), io("intensity", def.intensity), io("unit", def.unit),
-        io("color", def.color), io("temperatureK", def.temperatureK), io("rangeM", def.rangeM),
-        io("radiusM", def.radiusM), io("lengthM", def.lengthM), io("widthM", def.widthM),
-        io("heightM", def.heightM), io("innerConeRad", def.innerConeRad),
-        io("outerConeRad", def.outerConeRad), io("angularDiameterRad", def.angularDiameterRad),
-        io("barnDoorAngleRad", def.barnDoorAngleRad), io("barnDoorLengthM", def.barnDoorLengthM),
-        io("rayEndBiasM", def.rayEndBiasM), io("pointer", def.pointer);
+        io("color", def.color), io("innerConeRad", def.innerConeRad), io("outerConeRad", def.outerConeRad),
+        io("pointer", def.pointer);
+    forEachLightProperty([&](const auto& each) { io(each.name, each.access(def)); });
 }
 template<typename Io, typename Group>
 void visitGroup(Io&& io, Group& group) {
@@ -92,6 +90,8 @@ struct Writer {
     }
     void operator()(const char* key, LightType member) { json[key] = wordOf(member); }
     void operator()(const char* key, LightUnit member) { json[key] = wordOf(member); }
+    void operator()(const char* key, IesUse member) { json[key] = wordOf(member); }
+    void operator()(const char* key, LightFunctionKind member) { json[key] = wordOf(member); }
 };
 
 } // namespace
@@ -104,6 +104,11 @@ Json toJson(const LightNode& light) {
 Json toJson(const LightDef& def) {
     Json json;
     visitDef(Writer{json}, def);
+    // Most lights have few of the properties; absent ones keep their default.
+    static const LightDef kDefault;
+    forEachLightProperty([&](const auto& each) {
+        if (each.access(def) == each.access(kDefault)) json.erase(each.name);
+    });
     return json;
 }
 Json toJson(const Node& node) {
@@ -111,6 +116,7 @@ Json toJson(const Node& node) {
                  {"name", node.name},
                  {"parent", node.parent},
                  {"mesh", node.mesh},
+                 {"meshChannels", node.meshChannels},
                  {"visible", node.visible}};
     if (node.restTrs) {
         json["transform"] = trsToJson(*node.restTrs);
@@ -172,6 +178,7 @@ std::optional<Error> fromJson(const Json& json, Node& node) {
     members.read("name", node.name);
     members.read("parent", node.parent);
     members.read("mesh", node.mesh);
+    members.read("meshChannels", node.meshChannels);
     members.read("visible", node.visible);
     if (members.find("transform")) {
         node.restTrs.emplace();
@@ -270,6 +277,11 @@ Result<EditValue> valueFromJson(const Json& json, const EditField& field, const 
     case FieldKind::Flag:
         return read(false);
     case FieldKind::Text:
+    case FieldKind::Word:
+        return read(std::string());
+    case FieldKind::Profile:
+    case FieldKind::Picture:
+        if (json.is_null()) return EditValue(std::string());
         return read(std::string());
     case FieldKind::Color:
         return read(glm::dvec3(0.0));
@@ -282,6 +294,7 @@ Result<EditValue> valueFromJson(const Json& json, const EditField& field, const 
         return read(glm::dmat4(1.0));
     case FieldKind::Frame:
         return read(glm::dmat4(1.0));
+    case FieldKind::Channels:
     case FieldKind::GroupId:
     case FieldKind::DefIndex:
         return read(std::uint64_t{0});

@@ -10,6 +10,7 @@
 #include "renderer/document/edit_session.h"
 #include "renderer/document/file_hash.h"
 #include "renderer/document/file_replace.h"
+#include "renderer/document/scene_files.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -191,6 +192,8 @@ std::optional<Error> EditSession::takeState(const Json& state) {
     });
     if (!inRange || !isSortedById(lights) || !isSortedById(groups) || !isSortedById(scene.bookmarks))
         return Error{"lights: expected references to what exists, sorted by id"};
+    for (LightDef& def : defs)
+        loadFiles(scene.files.get(), def);
     scene.lightDefs = std::move(defs);
     scene.lights = std::move(lights);
     scene.groups = groups;

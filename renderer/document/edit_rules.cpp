@@ -1,5 +1,6 @@
 #include "renderer/document/edit_rules.h"
 
+#include "renderer/document/gltf_context.h"
 #include "renderer/document/light_units.h"
 #include "renderer/document/light_words.h"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr double kMinTubeRadiusM = 0.001; // a line has no luminance
 constexpr double kMaxEv100 = 100.0;
 constexpr std::size_t kMaxNameBytes = 10'000;
+constexpr std::size_t kMaxUriBytes = 32u << 20;
 
 std::optional<Error> expected(std::string what) {
     return Error{"expected " + std::move(what)};
@@ -66,6 +68,31 @@ std::optional<Error> checkText(const std::string& text) {
     return std::nullopt;
 }
 
+std::optional<Error> checkWord(const EditField& field, const EditValue& value) {
+    const std::string* word = std::get_if<std::string>(&value);
+    std::string known;
+    for (const char* each : field.words) {
+        if (word && *word == each) return std::nullopt;
+        known += (known.empty() ? "" : ", ") + std::string(each);
+    }
+    return expected("one of " + known);
+}
+
+// Text that names a file of the scene's folder, data, or a part of the scene's file; or nothing.
+std::optional<Error> checkUri(const EditValue& value) {
+    const std::string* uri = std::get_if<std::string>(&value);
+    if (!uri) return expected("text");
+    if (gltf::isDataUri(*uri)) return uri->size() <= kMaxUriBytes ? std::nullopt : expected("a smaller file");
+    if (std::optional<Error> error = checkText(*uri)) return error;
+    if (uri->empty() || uri->starts_with('#')) return std::nullopt;
+    try {
+        static_cast<void>(gltf::resolveUri({}, *uri, "a file"));
+    } catch (const gltf::ImportFailure& failure) {
+        return Error{failure.text};
+    }
+    return std::nullopt;
+}
+
 // --- objects as a whole ---
 
 std::optional<Error> checkDefinition(const LightDef& def) {
@@ -94,7 +121,7 @@ std::optional<Error> checkDefinition(const LightDef& def) {
 // Every field of an object that has just appeared.
 std::optional<Error> checkFields(const Scene& scene, EditTarget target, std::uint64_t id) {
     for (const EditField& field : editFields()) {
-        if (field.target != target) continue;
+        if (field.target != target || field.isShorthand) continue;
         if (std::optional<Error> error = checkValue(field, field.get(scene, id)))
             return Error{std::string(field.name) + ": " + error->message};
     }
@@ -194,6 +221,15 @@ std::optional<Error> checkValue(const EditField& field, const EditValue& value) 
         return std::holds_alternative<LightType>(value) ? std::nullopt : expected("a type of light");
     case FieldKind::Unit:
         return std::holds_alternative<LightUnit>(value) ? std::nullopt : expected("a unit of light");
+    case FieldKind::Word:
+        return checkWord(field, value);
+    case FieldKind::Profile:
+    case FieldKind::Picture:
+        return checkUri(value);
+    case FieldKind::Channels: {
+        const std::uint64_t* bits = std::get_if<std::uint64_t>(&value);
+        return bits && *bits <= 255 ? std::nullopt : expected("a number of bits from 0 to 255");
+    }
     case FieldKind::Transform:
         return checkTransform(value);
     case FieldKind::Frame:

@@ -13,8 +13,10 @@ using Json = nlohmann::json;
 using Failure = std::optional<Error>;
 
 constexpr const char* kVerbs[] = {"set", "add", "duplicate", "delete", "make-unique", "undo", "redo"};
-constexpr std::pair<const char*, EditTarget> kTargets[] = {
-    {"light", EditTarget::Light}, {"group", EditTarget::Group}, {"bookmark", EditTarget::Bookmark}};
+constexpr std::pair<const char*, EditTarget> kTargets[] = {{"light", EditTarget::Light},
+                                                           {"group", EditTarget::Group},
+                                                           {"bookmark", EditTarget::Bookmark},
+                                                           {"node", EditTarget::Node}};
 
 // One step against a scratch document, which takes each part before the next one is built.
 class Step {
@@ -50,11 +52,11 @@ class Step {
 };
 
 Failure Step::checkKeys() const {
-    static constexpr const char* kKnown[] = {"do",  "light", "group",  "bookmark",
+    static constexpr const char* kKnown[] = {"do",  "light", "group",  "bookmark", "node",
                                              "set", "all",   "shared", "comment"};
     for (const auto& [key, value] : json_.items()) {
         if (std::find(std::begin(kKnown), std::end(kKnown), key) == std::end(kKnown))
-            return fail(key, "expected one of do, light, group, bookmark, set, all, shared, comment");
+            return fail(key, "expected one of do, light, group, bookmark, node, set, all, shared, comment");
     }
     for (const char* key : {"all", "shared"})
         if (json_.contains(key) && !json_[key].is_boolean()) return fail(key, "expected true or false");
@@ -67,6 +69,7 @@ std::string Step::nameOf(std::uint64_t id) const {
     const Scene& scene = scratch_;
     if (target_ == EditTarget::Group) return scene.groups[findGroup(scene, id)].name;
     if (target_ == EditTarget::Bookmark) return scene.bookmarks[findBookmark(scene, id)].name;
+    if (target_ == EditTarget::Node) return scene.nodes[id].name;
     return scene.nodes[scene.lights[findLight(scene, id)].node].name;
 }
 
@@ -83,6 +86,8 @@ Failure Step::select(std::vector<std::uint64_t>& ids) const {
     if (target_ == EditTarget::Bookmark)
         for (const Camera& bookmark : scene.bookmarks)
             all.push_back(bookmark.id);
+    for (std::size_t i = 0; target_ == EditTarget::Node && i < scene.nodes.size(); ++i)
+        all.push_back(i);
     const auto isWanted = [&](std::uint64_t id) {
         if (wanted.is_string()) return wanted == "*" || wanted == nameOf(id);
         if (wanted.is_number_unsigned()) return wanted == id;
@@ -158,9 +163,21 @@ Failure Step::setOne(std::uint64_t id, const std::string& key, const Json& json)
 
 // Type and size decide what a unit means, and the unit what a number means.
 int orderOf(std::string_view key) {
-    static constexpr std::string_view kFirst[] = {"type",         "radiusM", "lengthM",
-                                                  "widthM",       "heightM", "outerConeRad",
-                                                  "innerConeRad", "unit",    "intensity"};
+    static constexpr std::string_view kFirst[] = {"type",
+                                                  "radiusM",
+                                                  "lengthM",
+                                                  "widthM",
+                                                  "heightM",
+                                                  "outerConeRad",
+                                                  "innerConeRad",
+                                                  "iesProfile",
+                                                  "iesUse",
+                                                  "iesIntensity",
+                                                  "barnDoorAngleRad",
+                                                  "barnDoorLengthM",
+                                                  "lightFunctionImage",
+                                                  "unit",
+                                                  "intensity"};
     return static_cast<int>(std::find(std::begin(kFirst), std::end(kFirst), key) - std::begin(kFirst));
 }
 
@@ -178,6 +195,7 @@ Failure Step::setFields(std::uint64_t id) {
 
 Failure Step::add() {
     const Json& name = json_[targetKey_];
+    if (target_ == EditTarget::Node) return fail("do", "expected a light, group or bookmark for 'add'");
     if (!name.is_string()) return fail(targetKey_, "expected the name of what is added");
     Edits edits;
     if (target_ == EditTarget::Light) {
@@ -199,7 +217,7 @@ Failure Step::add() {
 Failure Step::change(std::uint64_t id) {
     if (verb_ == "set") return setFields(id);
     Edits edits;
-    if (verb_ == "delete") {
+    if (verb_ == "delete" && target_ != EditTarget::Node) {
         edits = target_ == EditTarget::Light   ? deleteLight(scratch_, id)
                 : target_ == EditTarget::Group ? deleteGroup(scratch_, id)
                                                : deleteBookmark(scratch_, id);

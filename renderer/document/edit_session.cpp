@@ -3,6 +3,7 @@
 #include "renderer/document/edit_json.h"
 #include "renderer/document/file_hash.h"
 #include "renderer/document/file_replace.h"
+#include "renderer/document/scene_files.h"
 
 #include <fmt/format.h>
 
@@ -140,6 +141,7 @@ void EditSession::finishSave(const SaveRun& run) {
     source_.diskHash = run.fileHash_;
     scene_.sourcePath = run.target_;
     opened_.sourcePath = run.target_;
+    scene_.files->moveTo(run.target_.parent_path());
     savedState_ = run.historyState_;
     ++version_;
 }

@@ -106,8 +106,9 @@ void checkExtensions(ImportContext& context);
 
 // --- gltf_resources.cpp ---
 
-// Percent-decoded `uri` below the folder of the scene; fails at `place` where it leaves that folder.
-std::filesystem::path resolveUri(const ImportContext& context, std::string_view uri, std::string_view place);
+// Percent-decoded `uri` below a folder, that of the scene; fails at `place` where it leaves that folder.
+std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri,
+                                 std::string_view place);
 
 // Bytes of a data URI; fails at `place` where it is damaged.
 Bytes decodeDataUri(std::string_view uri, std::string_view place);
@@ -123,6 +124,13 @@ void decodeCompressedViews(ImportContext& context);
 std::span<const std::uint8_t> bufferViewBytes(const ImportContext& context, int bufferView,
                                               std::string_view place);
 
+// --- gltf_light_files.cpp ---
+
+// Gives the scene's files what URIs that start with '#' name: '#/bufferViews/N', a photometric profile, and
+// '#/images/N', a picture.
+void keepLightFiles(ImportContext& context, const LightDef& def);
+void keepLightFiles(ImportContext& context, const Dome& dome);
+
 // --- gltf_model.cpp ---
 
 // Lets tinygltf turn the checked JSON into its structures; no file is touched.
@@ -135,7 +143,7 @@ void importMaterials(ImportContext& context, const tinygltf::Model& model);
 void importMeshes(ImportContext& context, const tinygltf::Model& model);
 void importNodes(ImportContext& context, const tinygltf::Model& model);
 void importAnimations(ImportContext& context, const tinygltf::Model& model); // needs the nodes
-void importSceneExtras(ImportContext& context);                              // of the default scene
-void importLights(ImportContext& context); // needs world transforms and the scene's groups
+void importSceneExtras(ImportContext& context); // of the default scene; needs the scene's files
+void importLights(ImportContext& context);      // needs world transforms and the scene's groups
 
 } // namespace kilolux::gltf

@@ -8,11 +8,16 @@ namespace kilolux::gltf {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> kRead = {
-    "KHR_lights_punctual",        "EXT_lights_area",
-    "KHR_texture_transform",      "KHR_materials_unlit",
-    "KHR_mesh_quantization",      "KHR_materials_emissive_strength",
-    "KHR_materials_transmission", "KHR_materials_pbrSpecularGlossiness",
+constexpr std::array<std::string_view, 10> kRead = {
+    "KHR_lights_punctual",
+    "EXT_lights_area",
+    "EXT_lights_ies",
+    "KHR_texture_transform",
+    "KHR_materials_unlit",
+    "KHR_mesh_quantization",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_transmission",
+    "KHR_materials_pbrSpecularGlossiness",
     "EXT_meshopt_compression",
 };
 

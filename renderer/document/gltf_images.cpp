@@ -50,7 +50,7 @@ int ImageLoader::addSource(int gltfImage) {
         source.bytes = source.storage;
         source.name = json.value("name", "data URI");
     } else {
-        const auto path = resolveUri(context_, text, place + "/uri");
+        const auto path = resolveUri(context_.path.parent_path(), text, place + "/uri");
         key = path.string();
         source.name = text;
         if (!bySource_.contains(key)) {

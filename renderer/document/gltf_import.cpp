@@ -1,5 +1,6 @@
 // The import from top to bottom: bytes, JSON, checks, structures, scene.
 #include "renderer/document/gltf_model.h"
+#include "renderer/document/scene_files.h"
 
 namespace kilolux {
 
@@ -28,6 +29,8 @@ Scene importScene(gltf::ImportContext& context) {
         importAnimations(context, model);
     }
     context.reach("Reading lights", 0.97);
+    context.scene.files = std::make_shared<SceneFiles>(
+        context.path.parent_path(), context.options.loadImages ? Pictures::Read : Pictures::LeaveOut);
     importSceneExtras(context);
     importLights(context);
     if (triangleCount(context.scene) == 0)

@@ -1,8 +1,9 @@
 // Definitions of lights, see gltf_light_reader.h. A broken light costs a warning, not the scene.
 #include "renderer/document/gltf_light_reader.h"
 
+#include "renderer/document/light_properties.h"
 #include "renderer/document/light_units.h"
-#include "renderer/document/light_words.h"
+#include "renderer/document/scene_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,36 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kMinTubeRadiusM = 0.001; // a line has no luminance
 constexpr double kDefaultAreaNit = 1000.0;
 
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, double& target) {
+    fields.number(row.name, row.min, row.max, target);
+}
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, std::optional<double>& target) {
+    if (double number = 0.0; fields.number(row.name, row.min, row.max, number)) target = number;
+}
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, bool& target) {
+    fields.flag(row.name, target);
+}
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, std::string& target) {
+    fields.text(row.name, target);
+}
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, std::uint8_t& target) {
+    if (double bits = 0.0; fields.number(row.name, row.min, row.max, bits))
+        target = static_cast<std::uint8_t>(bits);
+}
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, IesUse& target) {
+    if (const IesUseWord* word = fields.name(row.name, kIesUseWords)) target = word->use;
+}
+template<typename Row>
+void readProperty(const Fields& fields, const Row& row, LightFunctionKind& target) {
+    if (const LightFunctionWord* word = fields.name(row.name, kLightFunctionWords)) target = word->kind;
+}
+
 constexpr LightTypeWord kPunctualTypes[] = {
     {"directional", LightType::Directional}, {"point", LightType::Sphere}, {"spot", LightType::Spot}};
 constexpr LightTypeWord kAreaTypes[] = {{"rect", LightType::Rect}, {"disk", LightType::Disk}};
@@ -25,6 +56,10 @@ void LightReader::readCommon(const Fields& fields, LightDef& def) {
     def.pointer = fields.place();
     if (const Json* name = fields.find("name"); name && name->is_string()) def.name = *name;
     fields.number("intensity", 0.0, kHuge, def.intensity);
+    readColor(fields, def);
+}
+
+void LightReader::readColor(const Fields& fields, LightDef& def) {
     const Json* color = fields.find("color");
     if (!color) return;
     const bool good = color->is_array() && color->size() == 3 &&
@@ -106,6 +141,32 @@ std::optional<LightDef> LightReader::readArea(const Json& light, const std::stri
     return def;
 }
 
+std::string profileUri(const Json& light) {
+    if (const auto uri = light.find("uri"); uri != light.end() && uri->is_string()) return *uri;
+    const auto view = light.find("bufferView");
+    const bool has = view != light.end() && view->is_number_unsigned() && *view < INT32_MAX;
+    return has ? fmt::format("#/bufferViews/{}", view->get<int>()) : "";
+}
+
+// A light of its own, with the candela of its profile. One whose profile is missing stays, as a point.
+std::optional<LightDef> LightReader::readIes(const Json& light, const std::string& pointer,
+                                             const Fields& use) {
+    LightDef def;
+    def.pointer = pointer;
+    if (const auto name = light.find("name"); name != light.end() && name->is_string()) def.name = *name;
+    def.iesUri = profileUri(light);
+    if (def.iesUri.empty()) context_.warnOnce("uri " + pointer, pointer, "expected 'uri' or 'bufferView'");
+    const auto type = light.find("mimeType");
+    if (type != light.end() && *type != "application/x-ies-lm-63") {
+        context_.warnOnce("mime " + pointer, pointer + "/mimeType",
+                          "expected 'application/x-ies-lm-63'; it is read as such");
+    }
+    def.iesUse = IesUse::Shape;
+    use.number("multiplier", 0.0, kHuge, def.iesMultiplier);
+    readColor(use, def);
+    return def;
+}
+
 // `before` is the light as the extension alone describes it.
 void LightReader::applyIntensity(const Fields& extras, const LightDef& before, LightDef& def) {
     const LightUnitWord* unit = extras.name("unit", kLightUnitWords);
@@ -129,17 +190,14 @@ void LightReader::applyIntensity(const Fields& extras, const LightDef& before, L
 void LightReader::applyExtras(const Fields& extras, LightDef& def) {
     const LightDef before = def;
     if (const LightTypeWord* type = extras.name("type", kLightTypeWords)) def.type = type->type;
-    double temperatureK = 0.0;
-    if (extras.number("temperatureK", 1000.0, 40000.0, temperatureK)) def.temperatureK = temperatureK;
-    extras.number("radiusM", 0.0, kHuge, def.radiusM);
-    extras.number("lengthM", 0.0, kHuge, def.lengthM);
-    extras.number("widthM", 1e-6, kHuge, def.widthM);
-    extras.number("heightM", 1e-6, kHuge, def.heightM);
-    extras.number("angularDiameterRad", 0.0, kPi, def.angularDiameterRad);
-    extras.number("barnDoorAngleRad", 0.0, kPi / 2.0, def.barnDoorAngleRad);
-    extras.number("barnDoorLengthM", 0.0, kHuge, def.barnDoorLengthM);
-    extras.number("rayEndBiasM", 0.0, kHuge, def.rayEndBiasM);
-    if (double rangeM = 0.0; extras.number("rangeM", 1e-6, kHuge, rangeM)) def.rangeM = rangeM;
+    // One pair of doors for all sides; a side of its own comes after it.
+    for (BarnDoor& door : def.barnDoors) {
+        extras.number("barnDoorAngleRad", 0.0, kPi / 2.0, door.angleRad);
+        extras.number("barnDoorLengthM", 0.0, kHuge, door.lengthM);
+    }
+    forEachLightProperty([&](const auto& each) {
+        if (extras.find(each.name)) readProperty(extras, each, each.access(def));
+    });
     if (def.type == LightType::Tube) def.radiusM = std::max(def.radiusM, kMinTubeRadiusM);
     // A type for which the extension's unit means nothing takes over the base value (candela or lux).
     applyIntensity(extras, before, def);
@@ -150,8 +208,15 @@ double largestScale(const glm::dmat4& matrix) {
                      glm::length(glm::dvec3(matrix[2]))});
 }
 
+void LightReader::loadFiles(LightDef& def, const std::string& place) {
+    keepLightFiles(context_, def);
+    for (const Error& error : kilolux::loadFiles(context_.scene.files.get(), def))
+        context_.warnOnce(error.message, place, "{}; the light shines without it", error.message);
+}
+
 std::optional<LightDef> LightReader::read(LightExtension extension, const Json& light,
-                                          const std::string& pointer, double nodeScale) {
+                                          const std::string& pointer, const Fields& use, double nodeScale) {
+    if (extension == LightExtension::Ies) return readIes(light, pointer, use);
     return extension == LightExtension::Area ? readArea(light, pointer, nodeScale)
                                              : readPunctual(light, pointer);
 }

@@ -1,13 +1,26 @@
-// Lights: KHR_lights_punctual, the draft EXT_lights_area, and what extras.kilolux adds (see extras.md). A
-// broken light costs a warning, not the scene. Read from the JSON, since a node's extras decide which
-// definitions are shared.
+// Lights: KHR_lights_punctual, EXT_lights_ies, the draft EXT_lights_area, and what extras.kilolux adds (see
+// extras.md). A broken light costs a warning, not the scene. Read from the JSON, since a node's extras decide
+// which definitions are shared.
 #include "renderer/document/gltf_light_reader.h"
+#include "renderer/document/light_properties.h"
 
 #include <map>
 
 namespace kilolux::gltf {
 
 namespace {
+
+// A property's value as text.
+template<typename T>
+std::string keyOf(const T& value) {
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+        return value ? fmt::format("{}", *value) : "";
+    } else if constexpr (std::is_enum_v<T>) {
+        return wordOf(value);
+    } else {
+        return fmt::format("{}", value);
+    }
+}
 
 class LightImporter {
   public:
@@ -47,16 +60,20 @@ std::optional<LightDef> LightImporter::readReferred(int node, LightExtension ext
         context_.warnOnce("type " + pointer, pointer, "expected an object; the light is left out");
         return std::nullopt;
     }
-    return reader_.read(extension, light, pointer, largestScale(context_.scene.nodes[node].worldFromNode));
+    const Fields use(context_, *reference, fmt::format("/nodes/{}/extensions/{}", node, name));
+    return reader_.read(extension, light, pointer, use,
+                        largestScale(context_.scene.nodes[node].worldFromNode));
 }
 
 int LightImporter::shareDef(LightDef def) {
-    const std::string key =
-        fmt::format("{} {} {} {} {},{},{} {} {} {} {} {} {} {} {} {} {} {} {}", def.pointer,
-                    static_cast<int>(def.type), def.intensity, static_cast<int>(def.unit), def.color.r,
-                    def.color.g, def.color.b, def.temperatureK.value_or(0.0), def.rangeM.value_or(0.0),
-                    def.radiusM, def.lengthM, def.widthM, def.heightM, def.innerConeRad, def.outerConeRad,
-                    def.angularDiameterRad, def.barnDoorAngleRad, def.barnDoorLengthM, def.rayEndBiasM);
+    static const LightDef kDefault;
+    std::string key = fmt::format("{} {} {} {} {},{},{} {} {}", def.pointer, static_cast<int>(def.type),
+                                  def.intensity, static_cast<int>(def.unit), def.color.r, def.color.g,
+                                  def.color.b, def.innerConeRad, def.outerConeRad);
+    forEachLightProperty([&](const auto& each) {
+        if (each.access(def) == each.access(kDefault)) return;
+        key += fmt::format("\n{} {}", each.name, keyOf(each.access(def)));
+    });
     const auto [it, isNew] = defs_.emplace(key, static_cast<int>(context_.scene.lightDefs.size()));
     if (isNew) context_.scene.lightDefs.push_back(std::move(def));
     return it->second;
@@ -72,11 +89,17 @@ std::uint64_t LightImporter::groupNamed(const std::string& name, const std::stri
 void LightImporter::importNode(int node) {
     const Json& json = context_.json["nodes"][node];
     const std::string place = fmt::format("/nodes/{}", node);
-    std::optional<LightDef> def = readReferred(node, LightExtension::Area);
-    if (def && findExtension(json, "KHR_lights_punctual")) {
-        context_.warn(place, "expected one light, found two; the area light is used");
+    // What says more than a point comes first.
+    std::optional<LightDef> def;
+    for (const LightExtension extension :
+         {LightExtension::Area, LightExtension::Ies, LightExtension::Punctual}) {
+        if (!def) {
+            def = readReferred(node, extension);
+        } else if (findExtension(json, nameOf(extension))) {
+            context_.warn(place, "expected one light, found {} beside another one, which is used",
+                          nameOf(extension));
+        }
     }
-    if (!def) def = readReferred(node, LightExtension::Punctual);
     const Json* allExtras = findObject(json, "extras");
     const Json* ours = allExtras ? findObject(*allExtras, "kilolux") : nullptr;
     if (!def) return;
@@ -86,9 +109,11 @@ void LightImporter::importNode(int node) {
     if (ours) {
         const Fields extras(context_, *ours, place + "/extras/kilolux");
         reader_.applyExtras(extras, *def);
+        reader_.loadFiles(*def, extras.place());
         extras.flag("muted", light.muted);
         if (std::string group; extras.text("group", group)) light.group = groupNamed(group, extras.place());
     }
+    if (!ours) reader_.loadFiles(*def, def->pointer);
     light.def = shareDef(std::move(*def));
     context_.scene.lights.push_back(light);
 }

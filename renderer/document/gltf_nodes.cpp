@@ -1,4 +1,5 @@
 // Nodes, scenes and cameras (glTF 2.0, sections 3.5 and 3.10). The node graph must be a forest.
+#include "renderer/document/gltf_fields.h"
 #include "renderer/document/gltf_model.h"
 
 #include <cmath>
@@ -29,6 +30,16 @@ Trs trsOf(const tinygltf::Node& node, const std::string& place) {
     return trs;
 }
 
+std::uint8_t meshChannelsOf(ImportContext& context, std::size_t node) {
+    const Json* extras = findObject(context.json["nodes"][node], "extras");
+    const Json* ours = extras ? findObject(*extras, "kilolux") : nullptr;
+    double bits = Node{}.meshChannels;
+    if (ours)
+        Fields(context, *ours, fmt::format("/nodes/{}/extras/kilolux", node))
+            .number("meshChannels", 0, 255, bits);
+    return static_cast<std::uint8_t>(bits);
+}
+
 void readNodes(ImportContext& context, const tinygltf::Model& model) {
     std::vector<Node>& nodes = context.scene.nodes;
     nodes.resize(model.nodes.size());
@@ -38,6 +49,7 @@ void readNodes(ImportContext& context, const tinygltf::Model& model) {
         nodes[i].id = i + 1;
         nodes[i].name = source.name;
         nodes[i].mesh = source.mesh;
+        nodes[i].meshChannels = meshChannelsOf(context, i);
         nodes[i].visible = false;
         if (source.matrix.size() != 16) nodes[i].restTrs = trsOf(source, place);
         nodes[i].localFromNode = nodes[i].restTrs ? matrixFrom(*nodes[i].restTrs) : matrixOf(source);

@@ -84,7 +84,8 @@ Bytes decodeDataUri(std::string_view uri, std::string_view place) {
     return Bytes(text.begin(), text.end());
 }
 
-std::filesystem::path resolveUri(const ImportContext& context, std::string_view uri, std::string_view place) {
+std::filesystem::path resolveUri(const std::filesystem::path& folder, std::string_view uri,
+                                 std::string_view place) {
     const std::string decoded = percentDecode(uri);
     const auto refuse = [&] {
         fail(place, "expected a path within the folder of the file, found '{}'", printable(uri));
@@ -96,7 +97,7 @@ std::filesystem::path resolveUri(const ImportContext& context, std::string_view 
     std::replace(slashes.begin(), slashes.end(), '\\', '/');
     const std::filesystem::path relative = std::filesystem::path(slashes).lexically_normal();
     if (relative.is_absolute() || relative.empty() || *relative.begin() == "..") refuse();
-    return context.path.parent_path() / relative;
+    return folder / relative;
 }
 
 void loadBuffers(ImportContext& context) {
@@ -120,7 +121,7 @@ void loadBuffers(ImportContext& context) {
                 buffer.storage = std::make_shared<const Bytes>(decodeDataUri(text, uriPlace));
                 *uri = ""; // it may be most of the file, and is not needed again
             } else {
-                const auto path = resolveUri(context, text, uriPlace);
+                const auto path = resolveUri(context.path.parent_path(), text, uriPlace);
                 auto& file = files[path];
                 if (!file) {
                     file = std::make_shared<const Bytes>(readFile(path, UINT64_MAX, uriPlace, &context));

@@ -4,6 +4,7 @@
 #include "renderer/document/file_replace.h"
 #include "renderer/document/gltf_save_context.h"
 #include "renderer/document/json_rewrite.h"
+#include "renderer/document/light_properties.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,26 +23,25 @@ bool near(double a, double b) {
 
 bool sameLight(const LightDef& a, const LightDef& b) {
     bool same = a.name == b.name && a.type == b.type && a.intensity == b.intensity && a.unit == b.unit &&
-                a.color == b.color && a.temperatureK == b.temperatureK && a.rayEndBiasM == b.rayEndBiasM;
-    switch (a.type) {
-    case LightType::Directional:
-        return same && a.angularDiameterRad == b.angularDiameterRad;
-    case LightType::Spot:
+                a.color == b.color;
+    if (a.type == LightType::Spot)
         same = same && near(a.innerConeRad, b.innerConeRad) && a.outerConeRad == b.outerConeRad;
-        break;
-    case LightType::Tube:
-        same = same && a.lengthM == b.lengthM;
-        break;
-    case LightType::Rect:
-        same = same && near(a.heightM, b.heightM) && a.barnDoorAngleRad == b.barnDoorAngleRad &&
-               a.barnDoorLengthM == b.barnDoorLengthM;
-        break;
-    case LightType::Sphere:
-    case LightType::Disk:
-        break;
-    }
-    const bool isFlat = a.type == LightType::Rect || a.type == LightType::Disk;
-    return same && a.rangeM == b.rangeM && (isFlat ? near(a.widthM, b.widthM) : a.radiusM == b.radiusM);
+    forEachLightProperty([&](const auto& each) {
+        if (!(each.types & typeBit(a.type))) return;
+        const auto &x = each.access(a), &y = each.access(b);
+        if constexpr (std::is_same_v<std::decay_t<decltype(x)>, double>) {
+            same = same && near(x, y);
+        } else {
+            same = same && x == y;
+        }
+    });
+    return same;
+}
+
+bool sameDome(const Dome& a, const Dome& b) {
+    return a.imageUri == b.imageUri && a.color == b.color && a.intensityNit == b.intensityNit &&
+           a.rotationRad == b.rotationRad && a.visible == b.visible && a.fillColor == b.fillColor &&
+           a.fillNit == b.fillNit;
 }
 
 std::string groupName(const Scene& scene, const LightNode& light) {
@@ -62,6 +62,7 @@ Scene readBack(const gltf::SaveContext& context, const SourceFile& source, const
     for (std::size_t i = 0; i < context.nodeIndices.size(); ++i) {
         if (context.nodeIndices[i] >= 0) reading.scene.nodes[context.nodeIndices[i]] = context.scene.nodes[i];
     }
+    reading.scene.files = context.scene.files; // what has been read of them
     gltf::importSceneExtras(reading);
     gltf::importLights(reading);
     return std::move(reading.scene);
@@ -88,8 +89,9 @@ void checkReadBack(const gltf::SaveContext& context, const Scene& saved) {
     }
     if (saved.groups.size() != scene.groups.size() || saved.bookmarks.size() != scene.bookmarks.size() ||
         saved.hasExposure != scene.hasExposure ||
-        (scene.hasExposure && saved.exposureEv100 != scene.exposureEv100))
-        fail("scene", "expected groups, bookmarks and exposure to be saved as they are");
+        (scene.hasExposure && saved.exposureEv100 != scene.exposureEv100) ||
+        !sameDome(saved.dome, scene.dome))
+        fail("scene", "expected groups, bookmarks, exposure and dome to be saved as they are");
 }
 
 SavePlan makePlan(const SourceFile& source, const Scene& opened, const Scene& scene) {

@@ -39,8 +39,9 @@ Result<SavePlan> planSave(const SourceFile& source, const Scene& opened, const S
 Result<std::string> withJsonText(const SourceFile& source, std::string_view diskBytes,
                                  std::string_view jsonText);
 
-// Copies what the JSON refers to by relative URIs to the folder of another file, where it is not there yet.
-// An error where something else of that name is.
-std::optional<Error> copyResources(const SourceFile& source, const std::filesystem::path& target);
+// Copies what the JSON of a file refers to by relative URIs to the folder of another file, where it is not
+// there yet. An error where something else of that name is.
+std::optional<Error> copyResources(const std::filesystem::path& source, std::string_view jsonText,
+                                   const std::filesystem::path& target);
 
 } // namespace kilolux

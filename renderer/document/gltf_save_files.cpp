@@ -3,6 +3,7 @@
 #include "renderer/document/file_replace.h"
 #include "renderer/document/gltf_context.h"
 #include "renderer/document/gltf_save.h"
+#include "renderer/document/light_properties.h"
 
 #include <cstring>
 
@@ -38,10 +39,18 @@ std::optional<std::size_t> jsonEnd(std::string_view bytes) {
     return kGlbHeadBytes + readU32(bytes, 12);
 }
 
-// Every string under the key "uri", at any depth: extensions that nobody here knows keep theirs so too.
+// Every string under the key "uri", at any depth: extensions that nobody here knows keep theirs so too. And
+// what lights and the dome name in their extras.
 void collectUris(const Json& json, std::vector<std::string>& uris) {
+    const auto isUri = [](const std::string& key) {
+        bool is = key == "uri" || key == "domeImage";
+        forEachLightProperty([&](const auto& each) {
+            is = is || (each.names != properties::Names::Nothing && key == each.name);
+        });
+        return is;
+    };
     for (auto it = json.begin(); it != json.end(); ++it) {
-        if (json.is_object() && it.key() == "uri" && it->is_string()) uris.push_back(it->get<std::string>());
+        if (json.is_object() && it->is_string() && isUri(it.key())) uris.push_back(it->get<std::string>());
         if (it->is_structured()) collectUris(*it, uris);
     }
 }
@@ -111,18 +120,17 @@ Result<std::string> withJsonText(const SourceFile& source, std::string_view disk
     return bytes;
 }
 
-std::optional<Error> copyResources(const SourceFile& source, const fs::path& target) {
+std::optional<Error> copyResources(const fs::path& source, std::string_view jsonText,
+                                   const fs::path& target) {
     std::error_code error;
-    const fs::path from = source.path.parent_path(), to = target.parent_path();
+    const fs::path from = source.parent_path(), to = target.parent_path();
     if (fs::equivalent(from.empty() ? "." : from, to.empty() ? "." : to, error)) return std::nullopt;
     std::vector<std::string> uris;
-    collectUris(Json::parse(source.jsonText), uris);
-    gltf::ImportContext context;
-    context.path = source.path;
+    collectUris(Json::parse(jsonText), uris);
     for (const std::string& uri : uris) {
-        if (gltf::isDataUri(uri)) continue;
+        if (gltf::isDataUri(uri) || uri.starts_with('#')) continue;
         try {
-            const fs::path resource = gltf::resolveUri(context, uri, "uri");
+            const fs::path resource = gltf::resolveUri(from, uri, "uri");
             const fs::path relative = from.empty() ? resource : resource.lexically_relative(from);
             if (std::optional<Error> failed = copyResource(resource, to / relative)) return failed;
         } catch (const gltf::ImportFailure&) {

@@ -1,7 +1,7 @@
 #include "renderer/document/gltf_save_light_json.h"
 
+#include "renderer/document/light_properties.h"
 #include "renderer/document/light_units.h"
-#include "renderer/document/light_words.h"
 
 #include <cmath>
 
@@ -28,6 +28,11 @@ const char* nativeWord(LightType type) {
 LightUnit nativeUnit(LightExtension extension, LightType type) {
     if (extension == LightExtension::Area) return LightUnit::Nit;
     return type == LightType::Directional ? LightUnit::Lux : LightUnit::Candela;
+}
+
+bool holds(LightExtension extension, LightType type) {
+    const bool isFlat = type == LightType::Rect || type == LightType::Disk;
+    return extension == (isFlat ? LightExtension::Area : LightExtension::Punctual);
 }
 
 bool sameShape(const LightDef& a, const LightDef& b) {
@@ -105,34 +110,66 @@ void setArea(Json& json, const LightDef* before, const LightDef& def, double nod
     json["rect"]["aspect"] = def.widthM / def.heightM;
 }
 
-struct NumberProperty {
-    const char* name;
-    double LightDef::*member;
-    std::initializer_list<LightType> types; // that have it
-};
-using enum LightType;
-const NumberProperty kNumberProperties[] = {
-    {"radiusM", &LightDef::radiusM, {Sphere, Spot, Tube}},
-    {"lengthM", &LightDef::lengthM, {Tube}},
-    {"widthM", &LightDef::widthM, {Rect, Disk}},
-    {"heightM", &LightDef::heightM, {Rect}},
-    {"angularDiameterRad", &LightDef::angularDiameterRad, {Directional}},
-    {"barnDoorAngleRad", &LightDef::barnDoorAngleRad, {Rect}},
-    {"barnDoorLengthM", &LightDef::barnDoorLengthM, {Rect}},
-    {"rayEndBiasM", &LightDef::rayEndBiasM, {Directional, Sphere, Spot, Tube, Rect, Disk}},
-};
-struct OptionalProperty {
-    const char* name;
-    std::optional<double> LightDef::*member;
-};
-constexpr OptionalProperty kOptionalProperties[] = {{"temperatureK", &LightDef::temperatureK},
-                                                    {"rangeM", &LightDef::rangeM}};
+// The profile as the extension refers to it: a URI, or bytes of the file.
+void setProfile(Json& json, const LightDef& def) {
+    if (profileUri(json) == def.iesUri) return;
+    for (const char* key : {"uri", "bufferView", "mimeType"})
+        json.erase(key);
+    constexpr std::string_view kView = "#/bufferViews/";
+    if (def.iesUri.starts_with(kView)) {
+        json["bufferView"] = std::strtoul(def.iesUri.c_str() + kView.size(), nullptr, 10);
+        json["mimeType"] = "application/x-ies-lm-63";
+    } else {
+        json["uri"] = def.iesUri;
+    }
+}
+
+// What a property is in the extras.
+Json extrasJson(const auto& value) {
+    using T = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+        return value ? Json(*value) : Json();
+    } else if constexpr (std::is_enum_v<T>) {
+        return wordOf(value);
+    } else {
+        return value;
+    }
+}
+
+bool sameDoors(const LightDef& def) {
+    return std::all_of(def.barnDoors.begin(), def.barnDoors.end(),
+                       [&](const BarnDoor& door) { return door == def.barnDoors[0]; });
+}
+
+constexpr const char* kDoorNames[] = {"barnDoorAngleRad", "barnDoorLengthM"};
+
+// Four equal doors are written as one pair.
+void fitDoors(Json& extras, const LightDef& now, const LightDef& def) {
+    if (now.barnDoors == def.barnDoors || !sameDoors(def)) return;
+    for (const char* key : kDoorNames)
+        extras.erase(key);
+    forEachLightProperty([&](const auto& each) {
+        if (std::string_view(each.name).starts_with("barnDoor")) extras.erase(each.name);
+    });
+    if (def.barnDoors[0].angleRad != BarnDoor{}.angleRad) extras[kDoorNames[0]] = def.barnDoors[0].angleRad;
+    if (def.barnDoors[0].lengthM != BarnDoor{}.lengthM) extras[kDoorNames[1]] = def.barnDoors[0].lengthM;
+}
 
 } // namespace
 
-LightExtension extensionFor(LightType type) {
-    return type == LightType::Rect || type == LightType::Disk ? LightExtension::Area
-                                                              : LightExtension::Punctual;
+LightExtension extensionFor(const LightDef& def) {
+    if (def.type == LightType::Sphere && emitsAsProfile(def)) return LightExtension::Ies;
+    return def.type == LightType::Rect || def.type == LightType::Disk ? LightExtension::Area
+                                                                      : LightExtension::Punctual;
+}
+
+bool emitsAsProfile(const LightDef& def) {
+    return def.iesUse == IesUse::Shape && def.iesIntensity && !def.iesUri.empty();
+}
+
+void fitUse(Json& use, const LightDef& native, const LightDef& def) {
+    if (native.iesMultiplier != def.iesMultiplier) setMember(use, "multiplier", def.iesMultiplier);
+    if (native.color != def.color) use["color"] = colorJson(def.color);
 }
 
 Json definitionJson(LightExtension extension, Json json, const LightDef* before, const LightDef& def,
@@ -144,10 +181,14 @@ Json definitionJson(LightExtension extension, Json json, const LightDef* before,
             json["name"] = def.name;
         }
     }
+    if (extension == LightExtension::Ies) {
+        setProfile(json, def);
+        return json;
+    }
     if (before ? before->color != def.color : def.color != glm::dvec3(1.0))
         json["color"] = colorJson(def.color);
     // A type that the extension does not know stands in the extras, and the definition for other readers.
-    if (extension == extensionFor(def.type)) {
+    if (holds(extension, def.type)) {
         if (extension == LightExtension::Area) {
             setArea(json, before, def, nodeScale);
         } else {
@@ -166,44 +207,48 @@ void fitExtras(ImportContext& context, Json& extras, const LightDef& native, con
         LightReader(context).applyExtras(Fields(context, extras, ""), result);
         return result;
     };
-    if (read().type != def.type) {
+    LightDef now = read();
+    if (now.type != def.type) {
         extras.erase("type");
         if (native.type != def.type) extras["type"] = wordOf(def.type);
+        now = read();
     }
-    for (const NumberProperty& property : kNumberProperties) {
-        const auto& types = property.types;
-        if (std::find(types.begin(), types.end(), def.type) == types.end()) continue;
-        const double wanted = def.*property.member;
-        const bool scaled = property.member == &LightDef::widthM || property.member == &LightDef::heightM;
-        const auto fits = [&](double value) { return scaled ? near(value, wanted) : value == wanted; };
-        if (fits(read().*property.member)) continue;
-        extras.erase(property.name);
-        if (!fits(read().*property.member)) extras[property.name] = wanted;
+    if (def.type == LightType::Rect) {
+        fitDoors(extras, now, def);
+        now = read();
     }
-    for (const OptionalProperty& property : kOptionalProperties) {
-        const std::optional<double> wanted = def.*property.member;
-        const bool hasRange = def.type != LightType::Directional || property.member != &LightDef::rangeM;
-        if (!hasRange || read().*property.member == wanted) continue;
-        extras.erase(property.name);
-        if (wanted && read().*property.member != wanted) extras[property.name] = *wanted;
-    }
-    const auto fits = [&] {
-        const LightDef now = read();
-        return now.intensity == def.intensity && now.unit == def.unit;
-    };
+    forEachLightProperty([&](const auto& each) {
+        if (!(each.types & typeBit(def.type))) return;
+        const auto& wanted = each.access(def);
+        const auto fits = [&] {
+            // Sizes that passed through a node's scale.
+            const bool isScaled = &each.access(def) == static_cast<const void*>(&def.widthM) ||
+                                  &each.access(def) == static_cast<const void*>(&def.heightM);
+            if constexpr (std::is_same_v<std::decay_t<decltype(wanted)>, double>)
+                if (isScaled) return near(each.access(now), wanted);
+            return each.access(now) == wanted;
+        };
+        if (fits()) return;
+        extras.erase(each.name);
+        now = read();
+        if (fits()) return;
+        if (Json value = extrasJson(wanted); !value.is_null()) extras[each.name] = std::move(value);
+        now = read();
+    });
+    const auto fits = [&] { return now.intensity == def.intensity && now.unit == def.unit; };
     if (fits()) return;
     extras.erase("intensity");
     extras.erase("unit");
+    now = read();
     if (fits()) return;
     extras["intensity"] = def.intensity;
     extras["unit"] = wordOf(def.unit);
 }
 
 void eraseLightExtras(Json& extras) {
-    for (const char* name : {"type", "intensity", "unit", "temperatureK", "rangeM", "muted", "group"})
+    for (const char* name : {"type", "intensity", "unit", "muted", "group", kDoorNames[0], kDoorNames[1]})
         extras.erase(name);
-    for (const NumberProperty& property : kNumberProperties)
-        extras.erase(property.name);
+    forEachLightProperty([&](const auto& each) { extras.erase(each.name); });
 }
 
 } // namespace kilolux::gltf

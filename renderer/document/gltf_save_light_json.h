@@ -6,8 +6,13 @@
 
 namespace kilolux::gltf {
 
-// The extension that can hold a type by itself.
-LightExtension extensionFor(LightType type);
+// The extension that can hold a light by itself, and whether it is a profile's light: its distribution with
+// its candela.
+LightExtension extensionFor(const LightDef& def);
+bool emitsAsProfile(const LightDef& def);
+
+// Changes what EXT_lights_ies says on the node where reading it gave `native`.
+void fitUse(Json& use, const LightDef& native, const LightDef& def);
 
 // `json`, the definition `before` as the file has it (an empty object for a new one), changed where `def`
 // differs from `before`. `nodeScale` is what reading will multiply an area light's size with.

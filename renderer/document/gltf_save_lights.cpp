@@ -9,8 +9,6 @@ namespace kilolux::gltf {
 
 namespace {
 
-constexpr LightExtension kExtensions[] = {LightExtension::Punctual, LightExtension::Area};
-
 struct Place {
     LightExtension extension = LightExtension::Punctual;
     int index = -1; // in the extension's lights; -1: not in the file
@@ -27,7 +25,7 @@ struct Wanted {
 };
 
 Place placeOf(const std::string& pointer) {
-    for (const LightExtension extension : kExtensions) {
+    for (const LightExtension extension : kLightExtensions) {
         const std::string start = fmt::format("/extensions/{}/lights/", nameOf(extension));
         if (pointer.starts_with(start)) return {extension, std::atoi(pointer.c_str() + start.size())};
     }
@@ -72,12 +70,13 @@ class LightSaver {
         return lights ? static_cast<int>(lights->size()) : 0;
     }
     std::vector<Json>& added(LightExtension extension) { return added_[static_cast<int>(extension)]; }
+    LightDef nativeOf(const LightNode& light, const Wanted& wanted, const Json& node);
 
     SaveContext& context_;
     ImportContext reading_; // collects warnings that nobody needs
     std::vector<Wanted> wanted_;
     std::vector<int> wantedOfDef_;                           // per Scene::lightDefs
-    std::vector<Json> added_[2];                             // new definitions, per extension
+    std::vector<Json> added_[std::size(kLightExtensions)];   // new definitions, per extension
     std::unordered_map<int, const LightNode*> openedLights_; // by node of the file
 };
 
@@ -105,18 +104,19 @@ Wanted LightSaver::want(const LightNode& light) {
         wanted.before = (*lights)[wanted.origin.index];
     // Authors may hold a type in the extras that the extension does not know; it stays there until it
     // changes.
-    const bool stays =
-        before && (before->type == def.type || extensionFor(def.type) == wanted.origin.extension);
+    const bool isProfile = wanted.origin.extension == LightExtension::Ies;
+    const bool stays = before && (extensionFor(def) == wanted.origin.extension ||
+                                  (before->type == def.type && isProfile == emitsAsProfile(def)));
     Json start = wanted.before.is_object() ? wanted.before : Json::object();
     if (before && !stays) {
         Json kept = Json::object();
         for (const char* key : {"name", "extras"})
             if (start.contains(key)) kept[key] = start[key];
         start = std::move(kept);
-        wanted.origin = {extensionFor(def.type), -1};
+        wanted.origin = {extensionFor(def), -1};
         before = nullptr;
     } else if (!before) {
-        wanted.origin = {extensionFor(def.type), -1};
+        wanted.origin = {extensionFor(def), -1};
     }
     wanted.place = wanted.origin;
     wanted.json = definitionJson(wanted.origin.extension, std::move(start), before, def, scaleOf(light));
@@ -136,7 +136,7 @@ void LightSaver::placeWanted() {
     const auto nodes = context_.before.find("nodes");
     for (std::size_t i = 0; nodes != context_.before.end() && i < nodes->size(); ++i) {
         if (openedLights_.contains(static_cast<int>(i))) continue;
-        for (const LightExtension extension : kExtensions)
+        for (const LightExtension extension : kLightExtensions)
             foreign.emplace(extension, reference((*nodes)[i], extension));
     }
     std::map<std::pair<LightExtension, int>, std::vector<Wanted*>> owners;
@@ -171,15 +171,28 @@ void LightSaver::placeWanted() {
     }
 }
 
-void LightSaver::writeExtras(const LightNode& light, const Wanted& wanted, Json& node) {
+// What the extensions of the node will say by themselves.
+LightDef LightSaver::nativeOf(const LightNode& light, const Wanted& wanted, const Json& node) {
     const LightDef& def = context_.scene.lightDefs[light.def];
+    const Fields use(reading_, node["extensions"][nameOf(wanted.place.extension)], "");
     const std::optional<LightDef> native =
-        LightReader(reading_).read(wanted.place.extension, wanted.json, def.pointer, scaleOf(light));
+        LightReader(reading_).read(wanted.place.extension, wanted.json, def.pointer, use, scaleOf(light));
     if (!native)
         fail(fmt::format("light '{}'", context_.scene.nodes[light.node].name), "expected a usable node");
+    return *native;
+}
+
+void LightSaver::writeExtras(const LightNode& light, const Wanted& wanted, Json& node) {
+    const LightDef& def = context_.scene.lightDefs[light.def];
+    LightDef native = nativeOf(light, wanted, node);
+    if (wanted.place.extension == LightExtension::Ies) {
+        fitUse(node["extensions"][nameOf(LightExtension::Ies)], native, def);
+        native = nativeOf(light, wanted, node);
+    }
+    native.ies = def.ies; // as it will be read from the file
     const Json* found = findKiloluxExtras(node);
     Json extras = found ? *found : Json::object();
-    fitExtras(reading_, extras, *native, def);
+    fitExtras(reading_, extras, native, def);
     const auto muted = extras.find("muted");
     if ((muted != extras.end() && muted->is_boolean() && muted->get<bool>()) != light.muted) {
         extras.erase("muted");
@@ -206,10 +219,9 @@ void LightSaver::writeLight(const LightNode& light) {
     Json& node = context_.after["nodes"][context_.nodeIndices[light.node]];
     const LightExtension own = wanted.place.extension;
     if (reference(node, own) != wanted.place.index) {
-        const LightExtension other =
-            own == LightExtension::Area ? LightExtension::Punctual : LightExtension::Area;
         Json& extensions = memberObject(node, "extensions", "nodes");
-        extensions.erase(nameOf(other));
+        for (const LightExtension other : kLightExtensions)
+            if (other != own) extensions.erase(nameOf(other));
         memberObject(extensions, nameOf(own), "nodes")["light"] =
             static_cast<std::size_t>(wanted.place.index);
     }
@@ -223,7 +235,7 @@ void LightSaver::removeDeleted() {
     for (const auto& [index, light] : openedLights_) {
         if (carriers.contains(index)) continue;
         Json& node = context_.after["nodes"][index];
-        for (const LightExtension extension : kExtensions)
+        for (const LightExtension extension : kLightExtensions)
             node["extensions"].erase(nameOf(extension));
         if (node["extensions"].empty()) node.erase("extensions");
         if (!findKiloluxExtras(node)) continue;
@@ -317,7 +329,7 @@ void LightSaver::run() {
     removeDeleted();
     for (const LightNode& light : context_.scene.lights)
         writeLight(light);
-    for (const LightExtension extension : kExtensions)
+    for (const LightExtension extension : kLightExtensions)
         finishDefinitions(extension);
 }
 

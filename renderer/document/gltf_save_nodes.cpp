@@ -146,6 +146,19 @@ bool sameBookmarks(const Scene& a, const Scene& b) {
                       });
 }
 
+// Its members as the extras have them; null where they are what reading assumes.
+Json domeJson(const Dome& dome) {
+    const Dome standard;
+    const auto unless = [](const Json& value, const Json& same) { return value == same ? Json() : value; };
+    return {{"domeImage", unless(dome.imageUri, standard.imageUri)},
+            {"domeColor", unless(colorJson(dome.color), colorJson(standard.color))},
+            {"domeNit", unless(dome.intensityNit, standard.intensityNit)},
+            {"domeRotationRad", unless(dome.rotationRad, standard.rotationRad)},
+            {"domeVisible", unless(dome.visible, standard.visible)},
+            {"fillColor", unless(colorJson(dome.fillColor), colorJson(standard.fillColor))},
+            {"fillNit", unless(dome.fillNit, standard.fillNit)}};
+}
+
 void setOrErase(Json& object, const char* key, Json value) {
     if (value.is_null() || (value.is_array() && value.empty())) {
         object.erase(key);
@@ -173,6 +186,11 @@ void saveNodes(SaveContext& context) {
         Json& json = context.after["nodes"][found->second];
         if (node.name != before.name) json["name"] = node.name;
         saveTransform(before, node, json);
+        if (node.meshChannels == before.meshChannels) continue;
+        Json& extras = kiloluxExtras(json);
+        extras.erase("meshChannels");
+        if (node.meshChannels != Node{}.meshChannels) extras["meshChannels"] = node.meshChannels;
+        dropEmptyExtras(json);
     }
 }
 
@@ -181,7 +199,8 @@ void saveSceneExtras(SaveContext& context) {
     const bool keepsExposure = scene.hasExposure == opened.hasExposure &&
                                (!scene.hasExposure || scene.exposureEv100 == opened.exposureEv100);
     const bool keepsGroups = sameGroups(opened, scene), keepsBookmarks = sameBookmarks(opened, scene);
-    if (keepsExposure && keepsGroups && keepsBookmarks) return;
+    const Json dome = domeJson(scene.dome), openedDome = domeJson(opened.dome);
+    if (keepsExposure && keepsGroups && keepsBookmarks && dome == openedDome) return;
     if (defaultScene(context.after) < 0) {
         const Json roots = rootsOf(context.after);
         context.after["scenes"] = Json::array({Json::object()});
@@ -194,6 +213,8 @@ void saveSceneExtras(SaveContext& context) {
         setOrErase(extras, "exposureEv100", scene.hasExposure ? Json(scene.exposureEv100) : Json());
     if (!keepsGroups) setOrErase(extras, "groups", groupsJson(context, &extras));
     if (!keepsBookmarks) setOrErase(extras, "bookmarks", bookmarksJson(context, &extras));
+    for (const auto& [key, value] : dome.items())
+        if (value != openedDome[key]) setOrErase(extras, key.c_str(), value);
     dropEmptyExtras(owner);
 }
 

@@ -1,5 +1,7 @@
-// What extras.kilolux says on the default scene (see extras.md): exposure, light groups, camera bookmarks.
+// What extras.kilolux says on the default scene (see extras.md): exposure, light groups, camera bookmarks,
+// dome.
 #include "renderer/document/gltf_fields.h"
+#include "renderer/document/scene_files.h"
 
 #include <algorithm>
 
@@ -75,6 +77,21 @@ void importBookmarks(ImportContext& context, const Fields& fields) {
     }
 }
 
+// The members that saving writes as well.
+void importDome(ImportContext& context, const Fields& fields) {
+    Dome& dome = context.scene.dome;
+    fields.text("domeImage", dome.imageUri);
+    for (const auto& [name, color] : {std::pair{"domeColor", &dome.color}, {"fillColor", &dome.fillColor}})
+        if (fields.numbers(name, {&color->x, 3})) *color = glm::max(*color, glm::dvec3(0.0));
+    fields.number("domeNit", 0.0, kHuge, dome.intensityNit);
+    fields.number("domeRotationRad", -1e3, 1e3, dome.rotationRad);
+    fields.flag("domeVisible", dome.visible);
+    fields.number("fillNit", 0.0, kHuge, dome.fillNit);
+    keepLightFiles(context, dome);
+    for (const Error& error : loadFiles(context.scene.files.get(), dome))
+        context.warn(fields.place(), "{}; the dome shines without it", error.message);
+}
+
 } // namespace
 
 void importSceneExtras(ImportContext& context) {
@@ -87,6 +104,7 @@ void importSceneExtras(ImportContext& context) {
     context.scene.hasExposure = fields.number("exposureEv100", -30.0, 40.0, context.scene.exposureEv100);
     importGroups(context, fields);
     importBookmarks(context, fields);
+    importDome(context, fields);
 }
 
 } // namespace kilolux::gltf

@@ -81,6 +81,16 @@ class Members {
     void read(const char* key, LightUnit& target) {
         readWord(key, kLightUnitWords, &LightUnitWord::unit, target);
     }
+    void read(const char* key, IesUse& target) { readWord(key, kIesUseWords, &IesUseWord::use, target); }
+    void read(const char* key, LightFunctionKind& target) {
+        readWord(key, kLightFunctionWords, &LightFunctionWord::kind, target);
+    }
+    void read(const char* key, std::uint8_t& target) {
+        const nlohmann::json* value = find(key);
+        if (value)
+            check(key, value->is_number_unsigned() && *value <= 255, "a number from 0 to 255", target,
+                  *value);
+    }
 
     const nlohmann::json* find(const char* key) const {
         if (!json_.is_object()) return nullptr;

@@ -1,5 +1,7 @@
 #include "renderer/document/light_units.h"
 
+#include "renderer/document/ies_profile.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +59,7 @@ double coneIntegral(const LightDef& def) {
 
 // Flux per candela on the axis.
 double fluxPerCandela(const LightDef& def) {
+    if (isShapedByProfile(def)) return def.ies->fluxLm() / def.ies->maxCandela();
     switch (def.type) {
     case LightType::Directional:
         return 0.0;
@@ -126,7 +129,13 @@ double emitterAreaM2(const LightDef& def) {
     return 0.0;
 }
 
+bool isShapedByProfile(const LightDef& def) {
+    return def.ies && def.iesUse == IesUse::Shape && def.type != LightType::Directional &&
+           def.ies->maxCandela() > 0.0;
+}
+
 double baseIntensity(const LightDef& def) {
+    if (isShapedByProfile(def) && def.iesIntensity) return def.ies->maxCandela() * def.iesMultiplier;
     if (!unitApplies(def, def.unit)) return 0.0;
     switch (def.unit) {
     case LightUnit::Lumen:
@@ -188,7 +197,8 @@ glm::dvec2 blackBodyChromaticity(double temperatureK) {
 }
 
 glm::dvec3 emittedColor(const LightDef& def) {
-    return def.temperatureK ? def.color * temperatureColor(*def.temperatureK) : def.color;
+    const glm::dvec3 tint = def.color * std::exp2(def.exposureEv);
+    return def.temperatureK ? tint * temperatureColor(*def.temperatureK) : tint;
 }
 
 double luminanceOf(const glm::dvec3& linearRec709) {

@@ -8,6 +8,11 @@
 // cone's falloff over cos(angle). Lux of a local light is its illuminance 1 m away on the axis, lux of a
 // directional light the illuminance of a surface that faces it, and its luminance E / (pi sin^2(a)) over a
 // disk of the angular radius a. EV100: 0.125 * 2^EV nit.
+//
+// With a photometric profile as the light's shape the axial intensity is that at the profile's maximum, and
+// lumens are those of the whole profile; its candela times the multiplier stand in place of the typed
+// intensity where the light says so. Masks, doors, light functions and source textures take light away: the
+// units are those of the light without them.
 #pragma once
 
 #include "renderer/document/scene.h"
@@ -20,6 +25,9 @@ bool unitApplies(const LightDef& def, LightUnit unit);
 
 // The definition's intensity in candela; in lux for a directional light. 0 where its unit does not apply.
 double baseIntensity(const LightDef& def);
+
+// Whether a profile that could be read is the light's shape.
+bool isShapedByProfile(const LightDef& def);
 
 // The value that the definition's intensity has in another unit; 0 where that does not apply.
 double intensityIn(const LightDef& def, LightUnit unit);
@@ -43,7 +51,7 @@ glm::dvec3 temperatureColor(double temperatureK);
 // The CIE 1931 chromaticity (x, y) that temperatureColor starts from, before adaptation.
 glm::dvec2 blackBodyChromaticity(double temperatureK);
 
-// Tint times temperature: what the intensity is multiplied by, per channel.
+// Tint times temperature times exposure: what the intensity is multiplied by, per channel.
 glm::dvec3 emittedColor(const LightDef& def);
 
 double luminanceOf(const glm::dvec3& linearRec709);

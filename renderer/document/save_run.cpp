@@ -49,11 +49,12 @@ std::optional<Error> SaveRun::write(TaskWatch* watch) {
                      ": expected the file as it was opened; another program has changed it on disk"};
     }
     if (auto stopped = reach(watch, "Putting the changes in", 0.2)) return stopped;
-    if (!sameFile) {
-        if (std::optional<Error> failed = copyResources(source_, target_)) return failed;
-    }
     const Result<SavePlan> plan = planSave(source_, opened_, scene_);
     if (!plan) return Error{plan.error()};
+    if (!sameFile) {
+        if (std::optional<Error> failed = copyResources(source_.path, plan.value().jsonText, target_))
+            return failed;
+    }
     if (auto stopped = reach(watch, "Putting the changes in", 0.5)) return stopped;
     const Result<std::string> bytes = withJsonText(source_, disk.value(), plan.value().jsonText);
     if (!bytes) return Error{bytes.error()};

@@ -9,6 +9,19 @@
 
 namespace kilolux {
 
+std::array<glm::dvec3, 4> barnDoorCorners(const LightDef& def, BarnDoorSide side) {
+    const BarnDoor& door = def.barnDoors[static_cast<std::size_t>(side)];
+    const bool isAcross = side == BarnDoorSide::Left || side == BarnDoorSide::Right; // local X
+    const double sign = side == BarnDoorSide::Right || side == BarnDoorSide::Top ? 1.0 : -1.0;
+    const glm::dvec3 out = isAcross ? glm::dvec3(sign, 0, 0) : glm::dvec3(0, sign, 0);
+    const glm::dvec3 along =
+        isAcross ? glm::dvec3(0, 0.5 * def.heightM, 0) : glm::dvec3(0.5 * def.widthM, 0, 0);
+    const glm::dvec3 hinge = out * (0.5 * (isAcross ? def.widthM : def.heightM));
+    const glm::dvec3 free = hinge + door.lengthM * (std::sin(door.angleRad) * out -
+                                                    std::cos(door.angleRad) * glm::dvec3(0, 0, 1));
+    return {hinge - along, hinge + along, free + along, free - along};
+}
+
 void updateWorldTransforms(Scene& scene) {
     enum class State : std::uint8_t { Unknown, OnPath, Done };
     const int count = static_cast<int>(scene.nodes.size());

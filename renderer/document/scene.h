@@ -5,6 +5,7 @@
 
 #include "renderer/document/copy_on_write.h"
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -94,6 +95,39 @@ enum class LightType : std::uint8_t { Directional, Sphere, Spot, Tube, Rect, Dis
 // What the typed intensity value means. The typed pair is what is kept when size or cone changes.
 enum class LightUnit : std::uint8_t { Lumen, Candela, Lux, Nit, Ev100 };
 
+// A flap hinged to one edge of a rectangle light.
+struct BarnDoor {
+    // From the beam to the flap: 0 stands straight ahead (-Z), pi/2 is open, in the plane of the light.
+    double angleRad = 1.57079632679489661923;
+    double lengthM = 0.0; // 0 is without a flap
+    bool operator==(const BarnDoor&) const = default;
+};
+// As seen from behind the light, which looks along -Z: local -X, +X, +Y, -Y. A flap is as wide as its edge.
+enum class BarnDoorSide : std::uint8_t { Left, Right, Top, Bottom };
+
+struct IesProfile; // ies_profile.h
+
+// What a photometric profile does. Shape: the light emits as the profile says, in place of the type's own
+// distribution (Lambert, cone). Mask: it multiplies that distribution, 1 at the profile's maximum.
+enum class IesUse : std::uint8_t { None, Shape, Mask };
+
+// A mask that the light shines through. It is laid over the plane 1 m ahead: p = (x, y) / |z| of a direction
+// in the light's own frame, for a directional light metres about its node. Turned by `angleRad` and divided
+// by `scale` this gives the pattern's coordinates, in which it repeats every 1. Light is multiplied with 1 -
+// strength * (1 - pattern).
+enum class LightFunctionKind : std::uint8_t { None, Image, Grid, Blinds, Caustics, Flicker };
+struct LightFunction {
+    LightFunctionKind kind = LightFunctionKind::None;
+    std::string imageUri;               // luminance of an image
+    std::shared_ptr<const Image> image; // what the URI names; null where it cannot be read
+    double scale = 1.0;
+    double angleRad = 0.0;
+    double softness = 0.1; // of a pattern's edges, 0 hard to 1
+    double strength = 1.0; // 0 to 1
+    double seed = 0.0;     // caustics and flicker: which of them
+    double speed = 1.0;    // caustics and flicker: of their motion; 0 stands still
+};
+
 // A light definition, shared by any number of light nodes, as in KHR_lights_punctual.
 struct LightDef {
     std::string name;
@@ -108,11 +142,25 @@ struct LightDef {
     double widthM = 1.0;       // rectangle: local X; disk: diameter
     double heightM = 1.0;      // rectangle: local Y
     double innerConeRad = 0.0; // spot, half angle
-    double outerConeRad = 0.78539816339744830962;     // spot, half angle, at most pi/2
-    double angularDiameterRad = 0.0;                  // directional
-    double barnDoorAngleRad = 1.57079632679489661923; // rectangle: pi/2 is open
-    double barnDoorLengthM = 0.0;
-    double rayEndBiasM = 0.0; // shadow rays stop this far before the light (mission L7)
+    double outerConeRad = 0.78539816339744830962; // spot, half angle, at most pi/2
+    double angularDiameterRad = 0.0;              // directional
+    std::array<BarnDoor, 4> barnDoors{};          // rectangle; by BarnDoorSide
+    // Photometric profile of any light with a place. The URI is relative to the scene's folder, a data URI,
+    // or
+    // '#/...' into the scene's file.
+    std::string iesUri;
+    std::shared_ptr<const IesProfile> ies; // what the URI names; null where it cannot be read
+    IesUse iesUse = IesUse::None;
+    bool iesIntensity = true;                 // Shape: the profile's candela in place of `intensity`
+    double iesMultiplier = 1.0;               // of the profile's candela
+    std::string sourceUri;                    // rectangle: picture on its face, top towards +Y
+    std::shared_ptr<const Image> sourceImage; // null where it cannot be read
+    LightFunction function;
+    double exposureEv = 0.0;    // a factor on all that the light emits, 2^exposureEv
+    double rayEndBiasM = 0.0;   // shadow rays stop this far before the light (mission L7)
+    double penumbraScale = 1.0; // of the source's size as shadows see it; shading keeps the true size
+    std::uint8_t channels = 1;  // bits; the light reaches meshes that share one with it
+    bool channelsCast = true;   // meshes that it does not reach cast its shadow
     std::string pointer; // JSON pointer of the definition in the source file; empty when made by the tool
 };
 
@@ -173,10 +221,26 @@ struct Node {
     std::optional<Trs> restTrs;
     glm::dmat4 worldFromNode{1.0}; // kept by updateWorldTransforms()
     int mesh = -1;
-    bool visible = true; // reachable from the default scene
+    std::uint8_t meshChannels = 1; // bits; lights that share one reach the mesh
+    bool visible = true;           // reachable from the default scene
 };
 
 struct Animation; // animation.h
+
+// Light from all around, without a place. Off where an intensity is 0.
+struct Dome {
+    std::string imageUri;               // latitude-longitude, the middle towards -Z; none: one colour
+    std::shared_ptr<const Image> image; // null where it cannot be read
+    glm::dvec3 color{1.0};              // linear Rec. 709; on the image as well
+    double intensityNit = 0.0;          // of a white pixel with the value 1
+    double rotationRad = 0.0;           // about +Y
+    bool visible = true;                // behind the scene, where nothing else is
+    // A plain ambient light, not shadowed, for context; stated wherever it is on.
+    glm::dvec3 fillColor{1.0};
+    double fillNit = 0.0;
+};
+
+class SceneFiles; // scene_files.h
 
 struct Scene {
     std::filesystem::path sourcePath;
@@ -190,10 +254,16 @@ struct Scene {
     CopyOnWrite<LightGroup> groups;
     std::vector<Camera> bookmarks; // views that the user keeps; `node` is -1
     std::vector<std::shared_ptr<const Animation>> animations;
+    Dome dome;
+    // Where profiles and pictures of lights come from, shared by all copies of a document; null in memory.
+    std::shared_ptr<SceneFiles> files;
     double exposureEv100 = 0.0; // from scene extras.kilolux.exposureEv100, else derived by the renderer
     bool hasExposure = false;
     std::vector<std::string> warnings; // what the import could not honour, one line each
 };
+
+// The corners of a flap in the light's own frame, metres: two at the hinge, then two at its free edge.
+std::array<glm::dvec3, 4> barnDoorCorners(const LightDef& def, BarnDoorSide side);
 
 // Recomputes every node's worldFromNode from the local transforms.
 void updateWorldTransforms(Scene& scene);

@@ -119,7 +119,13 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     case LightType::Rect:
         light.halfWidthM = 0.5 * def.widthM;
         light.halfHeightM = 0.5 * def.heightM;
-        light.flaps.fill({def.barnDoorAngleRad, def.barnDoorLengthM});
+        for (std::size_t i = 0; i < 4; ++i) {
+            // The document has the top before the bottom.
+            constexpr BarnDoorSide kSides[] = {BarnDoorSide::Left, BarnDoorSide::Right, BarnDoorSide::Bottom,
+                                               BarnDoorSide::Top};
+            const BarnDoor& door = def.barnDoors[std::size_t(kSides[i])];
+            light.flaps[i] = {door.angleRad, door.lengthM};
+        }
         break;
     case LightType::Disk:
         light.radiusM = 0.5 * def.widthM;

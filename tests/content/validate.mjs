@@ -15,7 +15,7 @@ try {
 }
 
 // The validator does not know these extensions and says so; nothing else may pass unseen.
-const unknownToValidator = ["EXT_lights_area"];
+const unknownToValidator = ["EXT_lights_area", "EXT_lights_ies"];
 const explained = (m) =>
     m.code === "UNSUPPORTED_EXTENSION" && unknownToValidator.some((name) => m.message.includes(`'${name}'`));
 

@@ -115,8 +115,7 @@ Scene crowdScene(const LightCrowd& crowd) {
         scene.nodes.push_back(node);
         LightDef def = randomLight(within, crowd);
         if (def.type == LightType::Rect && i % 2 == 0) {
-            def.barnDoorAngleRad = glm::half_pi<double>() * (i % 17) / 17.0;
-            def.barnDoorLengthM = def.widthM * (0.2 + i % 5);
+            def.barnDoors.fill({glm::half_pi<double>() * (i % 17) / 17.0, def.widthM * (0.2 + i % 5)});
         }
         scene.lightDefs.push_back(def);
         LightNode light;

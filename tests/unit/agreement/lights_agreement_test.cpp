@@ -58,8 +58,7 @@ LightDef randomDef(Random& random, const Kind& kind) {
     def.innerConeRad = def.outerConeRad * random.between(0.0, 0.9);
     def.angularDiameterRad = random.between(0.0, 0.3);
     if (kind.shaped == Shaped::BarnDoors) {
-        def.barnDoorAngleRad = random.between(0.0, 1.5);
-        def.barnDoorLengthM = random.between(0.05, 1.5);
+        def.barnDoors.fill({random.between(0.0, 1.5), random.between(0.05, 1.5)});
     }
     return def;
 }

@@ -115,8 +115,8 @@ TEST(GltfLights, ExtrasSetEveryProperty) {
     EXPECT_EQ(defOf(scene, 1).angularDiameterRad, 0.0093);
     EXPECT_EQ(defOf(scene, 2).type, LightType::Rect);
     EXPECT_EQ(defOf(scene, 2).widthM, 0.6);
-    EXPECT_EQ(defOf(scene, 2).barnDoorAngleRad, 1.0);
-    EXPECT_EQ(defOf(scene, 2).barnDoorLengthM, 0.2);
+    for (const BarnDoor& door : defOf(scene, 2).barnDoors)
+        EXPECT_EQ(door, (BarnDoor{1.0, 0.2})) << "one pair is for all four";
     EXPECT_TRUE(scene.warnings.size() == 1) << "only the missing triangles";
 }
 

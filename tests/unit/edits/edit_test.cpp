@@ -23,7 +23,8 @@ std::string fingerprint(const Scene& scene) {
         json["groups"].push_back(toJson(group));
     for (const Camera& bookmark : scene.bookmarks)
         json["bookmarks"].push_back(toJson(bookmark));
-    json["exposure"] = scene.hasExposure ? Json(scene.exposureEv100) : Json();
+    for (const EditField& field : editFields())
+        if (field.target == EditTarget::Scene) json[field.name] = valueToJson(field.get(scene, 0));
     return json.dump();
 }
 

@@ -75,6 +75,13 @@ inline const LightDef& defOf(const Scene& scene, std::string_view name) {
     return scene.lightDefs[scene.lights[findLight(scene, lightNamed(scene, name))].def];
 }
 
+// A profile and a picture that need no file.
+inline const std::string kProfileUri =
+    "data:,IESNA:LM-63-2002%0ATILT=NONE%0A1 1000 1 3 1 1 2 0 0 0%0A1 1 0%0A0 45 90%0A0%0A200 100 0%0A";
+inline const std::string kPictureUri =
+    "data:image/png;base64,"
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8BQDwAEhQGAhKmMIQAAAABJRU5ErkJggg==";
+
 // A value that suits the field and differs from `before`.
 inline EditValue otherValue(const EditField& field, const EditValue& before, std::mt19937& random) {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -96,6 +103,19 @@ inline EditValue otherValue(const EditField& field, const EditValue& before, std
         return glm::dvec3(u, uniform(random), uniform(random));
     case FieldKind::Type:
         return static_cast<LightType>((static_cast<int>(std::get<LightType>(before)) + 1 + int(u * 5)) % 6);
+    case FieldKind::Word: {
+        const std::string_view now = std::get<std::string>(before);
+        const std::size_t count = field.words.size();
+        const auto at =
+            std::size_t(std::find(field.words.begin(), field.words.end(), now) - field.words.begin());
+        return std::string(field.words[(at + 1 + std::size_t(u * double(count - 1))) % count]);
+    }
+    case FieldKind::Profile:
+        return std::get<std::string>(before).empty() ? kProfileUri : std::string();
+    case FieldKind::Picture:
+        return std::get<std::string>(before).empty() ? kPictureUri : std::string();
+    case FieldKind::Channels:
+        return std::uint64_t{(std::get<std::uint64_t>(before) + 1 + std::uint64_t(u * 254)) % 256};
     case FieldKind::Unit:
         return std::get<LightUnit>(before) == LightUnit::Lux ? LightUnit::Candela : LightUnit::Lux;
     case FieldKind::Transform: {
