@@ -19,6 +19,10 @@ FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
         visibleList = std::make_unique<VisibleListPass>(resources);
         shadeSamples = std::make_unique<ShadeSamplesPass>(resources);
         countLights = std::make_unique<CountLightsPass>(resources);
+    } else if (plan.resamples()) {
+        resampleLights = std::make_unique<ResampleLightsPass>(resources, plan.tracer);
+        reuseReservoirs = std::make_unique<ReuseReservoirsPass>(resources, plan.tracer);
+        countLights = std::make_unique<CountLightsPass>(resources);
     } else {
         lightAll = std::make_unique<LightAllPass>(resources, plan.tracer);
     }
@@ -35,7 +39,7 @@ FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
 
 void planFilters(FramePlan& plan, const Settings& settings) {
     const PictureChoice picture = settings.picture;
-    if (!plan.stochastic()) return;
+    if (!plan.filtersLight()) return;
     const bool filtered = picture == PictureChoice::Viewport || picture == PictureChoice::Denoised;
     plan.denoise = settings.denoise && (filtered || isDenoiserView(plan.view));
     plan.antiAlias = settings.antiAlias && filtered;
@@ -54,6 +58,19 @@ shared::DenoisingConstants denoisingConstants(const Settings& s) {
     c.antiAliasFrames = float(s.antiAliasFrames);
     c.antiAliasClip = float(s.antiAliasClip);
     c.settleError = float(s.settleError);
+    return c;
+}
+
+shared::ResamplingConstants resamplingConstants(Method method, const Settings& s) {
+    const bool resamples = method == Method::Resampling || method == Method::Restir;
+    shared::ResamplingConstants c{};
+    c.candidates = resamples ? std::uint32_t(s.resampleCandidates) : 1u;
+    c.byPower = method == Method::Power || (resamples && s.resampleFrom == ResampleFrom::Power);
+    c.reuse = method == Method::Restir;
+    c.mostHistory = float(s.reuseFrames) * float(c.candidates);
+    c.neighbours = std::uint32_t(s.reuseNeighbours);
+    c.radiusPx = float(s.reuseRadius);
+    c.unbiased = s.reuseUnbiased;
     return c;
 }
 
@@ -85,8 +102,12 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
             frame.commands.copyBufferToImage(*frame.replacedDiffuse, 0, targets.litDiffuse, 0, 0);
             frame.commands.copyBufferToImage(*frame.replacedSpecular, 0, targets.litSpecular, 0, 0);
         }
-        if (plan.countLights) passes.countLights->record(frame);
     }
+    if (plan.resamples()) {
+        passes.resampleLights->record(frame, world, plan.resampling);
+        passes.reuseReservoirs->record(frame, world, plan.resampling);
+    }
+    if (passes.countLights && plan.countLights) passes.countLights->record(frame);
     if (plan.denoise) {
         passes.denoiseTemporal->record(frame);
         passes.denoiseSpatial->record(frame);

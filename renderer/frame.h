@@ -30,7 +30,10 @@ struct FramePlan {
     bool mean = true;    // running mean of the frames as sampled
     bool settle = false; // the mean replaces the filtered picture as it converges
     bool keepsRaw() const { return denoise && mean; } // both the filtered and the sampled picture are needed
+    shared::ResamplingConstants resampling{};         // of the methods that resample
     bool stochastic() const { return method == Method::Stochastic; }
+    bool resamples() const { return method >= Method::Uniform; }
+    bool filtersLight() const { return stochastic() || resamples(); } // their light is noisy and demodulated
 };
 
 // The passes that a plan needs; the others do not exist.
@@ -49,6 +52,8 @@ struct FramePasses {
     std::unique_ptr<TraceSamplesPass> traceSamples;
     std::unique_ptr<VisibleListPass> visibleList;
     std::unique_ptr<ShadeSamplesPass> shadeSamples;
+    std::unique_ptr<ResampleLightsPass> resampleLights;
+    std::unique_ptr<ReuseReservoirsPass> reuseReservoirs;
     std::unique_ptr<CountLightsPass> countLights;
     std::unique_ptr<DenoiseTemporalPass> denoiseTemporal;
     std::unique_ptr<DenoiseSpatialPass> denoiseSpatial;
@@ -61,6 +66,9 @@ struct FramePasses {
     std::unique_ptr<DebugViewPass> debugView;
     std::unique_ptr<ProbePass> probe; // made when first asked for
 };
+
+// What a method that resamples asks for.
+shared::ResamplingConstants resamplingConstants(Method method, const Settings& settings);
 
 // The filters that the settings ask for, and no others.
 void planFilters(FramePlan& plan, const Settings& settings);

@@ -3,6 +3,7 @@
 
 #include "renderer/gpu_lights.h"
 #include "renderer/gpu_textures.h"
+#include "renderer/light_powers.h"
 #include "renderer/lights_cpp/lights_f32.h"
 #include "renderer/lights_cpp/ltc_table.h"
 #include "shaders/shared/features.h"
@@ -266,6 +267,13 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
                          ? gpu::Buffer()
                          : storageBuffer(device_, "lightShapings", slots_.shapings(), "lights");
     directionalSlots_ = storageBuffer(device_, "directionalSlots", directional, "lights");
+    lightPowers_ = gpu::Buffer();
+}
+
+void GpuScene::prepareLightPowers(double sceneExtentM) {
+    if (lightPowers_) return;
+    const std::vector<double> powers = kilolux::lightPowers(slots_.hot(), slots_.cold(), sceneExtentM);
+    lightPowers_ = storageBuffer(device_, "lightPowers", aliasTable(powers), "lights");
 }
 
 void GpuScene::updateMovingInstances(const Scene& scene) {

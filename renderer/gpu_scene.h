@@ -64,6 +64,9 @@ class GpuScene {
     gpu::Bindings lightBindings() const;                       // shaders/lib/light_access.glsl
     gpu::Binding environmentBrdf() const;                      // shaders/lib/environment_brdf_table.glsl
     const gpu::Buffer& directionalSlots() const { return directionalSlots_; }
+    // Made by prepareLightPowers(), for methods that draw lights by power.
+    const gpu::Buffer& lightPowers() const { return lightPowers_; }
+    void prepareLightPowers(double sceneExtentM);
     std::uint32_t directionalCount() const { return directionalCount_; }
     const gpu::Buffer& previousInstances() const { return previousInstanceBuffer_; } // where some move
     const gpu::Buffer& indexBuffer() const { return indexBuffer_; }
@@ -95,6 +98,7 @@ class GpuScene {
     gpu::Buffer vertexBuffer_, indexBuffer_, uv1Buffer_, instanceBuffer_, materialBuffer_;
     std::array<gpu::Image, shared::TEXTURE_CLASSES> textures_;
     gpu::Buffer lightsHot_, lightsCold_, lightShapings_, directionalSlots_, previousInstanceBuffer_;
+    gpu::Buffer lightPowers_; // empty: to be made anew
     std::uint32_t directionalCount_ = 0;
     gpu::Image ltcParameters_, ltcScales_;
 };

@@ -96,8 +96,8 @@ void Renderer::Impl::describe() {
     describeFeatures(used, statistics);
     describePasses(recentTimes,
                    {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples",
-                    "compact_rays", "trace_samples", "visible_list", "shade_samples", "denoise_temporal",
-                    "denoise_spatial"},
+                    "compact_rays", "trace_samples", "visible_list", "shade_samples", "resample_lights",
+                    "reuse_reservoirs", "denoise_temporal", "denoise_spatial"},
                    statistics);
     describeMemory(device.memory(), statistics);
 }

@@ -233,12 +233,14 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     constants.sampling = samplingConstants(options.settings);
     features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
     features[shared::CHOICE_HALF_SAMPLING] = std::uint32_t(options.settings.sampling);
-    features[shared::CHOICE_DEMODULATED] = plan.stochastic();
+    plan.resampling = resamplingConstants(plan.method, options.settings);
+    if (plan.resamples()) constants.sampling.rays = 1;
+    features[shared::CHOICE_DEMODULATED] = plan.filtersLight();
     features[shared::CHOICE_COMPACT_RAYS] = plan.compactRays;
     features[shared::CHOICE_LANES] = device.subgroupSize();
     plan.choices = constants.sampling.choices;
     constants.denoising = denoisingConstants(options.settings);
-    features[shared::CHOICE_COUNT_SAMPLES] = plan.stochastic();
+    features[shared::CHOICE_COUNT_SAMPLES] = plan.filtersLight();
     features[shared::CHOICE_SPARSE_NEIGHBOURS] = device.isCpu();
     features[shared::CHOICE_PIXEL_ROWS] = device.isCpu();
     if (plan.stochastic()) {

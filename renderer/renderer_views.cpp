@@ -33,15 +33,16 @@ TargetNeeds Renderer::Impl::targetNeeds() const {
     TargetNeeds needs;
     needs.raster = plan.producer == GBufferProducer::Raster;
     needs.debugView = plan.view != shared::VIEW_FINAL;
-    needs.history = plan.stochastic();
-    needs.rays = plan.stochastic() ? constants.sampling.rays : 0;
+    needs.history = plan.filtersLight();
+    needs.rays = plan.filtersLight() ? constants.sampling.rays : 0;
+    needs.reservoirs = plan.resamples();
     needs.halfChoices = plan.halfSampling ? constants.sampling.choices : 0;
     needs.denoised = plan.denoise;
     needs.denoiseTrace = plan.denoise && isDenoiserView(plan.view);
     needs.antiAliased = plan.antiAlias;
     needs.rawColor = plan.keepsRaw();
     needs.mean = plan.mean;
-    needs.counted = plan.mean && plan.stochastic();
+    needs.counted = plan.mean && plan.filtersLight();
     needs.settled = plan.settle;
     return needs;
 }

@@ -23,6 +23,7 @@ enum class GBufferChoice { Auto, Raster, Compute };
 enum class Noise { Blue, White };
 enum class Sampling { Full, HalfCheckerboard, HalfRooks };
 enum class DimLights { Roulette, Drop, Keep };
+enum class ResampleFrom { Cell, Power };
 enum class PictureChoice { Viewport, Denoised, Mean, Raw };
 
 // A number that the program finds by itself unless the user gives one.
@@ -62,6 +63,12 @@ struct Settings {
     int missCandidates = 32;
     DimLights dimLights = DimLights::Roulette;
     double dimThreshold = 0.002;
+    int resampleCandidates = 32;
+    ResampleFrom resampleFrom = ResampleFrom::Cell;
+    double reuseFrames = 20.0;
+    int reuseNeighbours = 5;
+    double reuseRadius = 30.0;
+    bool reuseUnbiased = false;
     PictureChoice picture = PictureChoice::Viewport;
     double settleError = 0.5;
     bool denoise = true;

@@ -51,8 +51,13 @@ Targets::Targets(gpu::Device& device, std::uint32_t widthPx, std::uint32_t heigh
                                    .usage = storage});
     };
     if (needs.rays > 0) {
-        samples = makeLayers("samples", VK_FORMAT_R32G32B32A32_UINT, needs.rays, 1);
+        if (!needs.reservoirs) samples = makeLayers("samples", VK_FORMAT_R32G32B32A32_UINT, needs.rays, 1);
         rayResults = makeLayers("rayResults", VK_FORMAT_R32_UINT, needs.rays, 1);
+    }
+    if (needs.reservoirs) {
+        newReservoirs = make("newReservoirs", VK_FORMAT_R32G32B32A32_UINT);
+        reservoirs = make("reservoirs", VK_FORMAT_R32G32B32A32_UINT);
+        previousReservoirs = make("previousReservoirs", VK_FORMAT_R32G32B32A32_UINT);
     }
     if (needs.halfChoices > 0)
         samplesHalf = makeLayers("samplesHalf", VK_FORMAT_R32G32B32A32_UINT, needs.halfChoices, 2);
@@ -102,6 +107,7 @@ void Targets::makeFiltered(const Make& make, const TargetNeeds& needs) {
 void Targets::turnHistory() {
     if (!motion) return;
     std::swap(gSurface, previousSurface);
+    std::swap(reservoirs, previousReservoirs);
 }
 
 void Targets::turnFilteredHistory() {
@@ -128,6 +134,9 @@ std::vector<NamedTarget> Targets::all() const {
     KX_TARGET(samplesHalf);
     KX_TARGET(samples);
     KX_TARGET(rayResults);
+    KX_TARGET(newReservoirs);
+    KX_TARGET(reservoirs);
+    KX_TARGET(previousReservoirs);
     KX_TARGET(litDiffuse);
     KX_TARGET(litSpecular);
     KX_TARGET(historyDiffuse);

@@ -17,6 +17,7 @@ struct TargetNeeds {
     bool history = false;          // something is looked up in the previous frame
     std::uint32_t rays = 0;        // samples per pixel of the stochastic method; 0: another method
     std::uint32_t halfChoices = 0; // samples per half-resolution pixel; 0: full resolution
+    bool reservoirs = false;       // of a method that resamples; its samples are in them
     bool denoised = false;
     bool denoiseTrace = false; // a view shows what the denoiser did
     bool antiAliased = false;
@@ -49,6 +50,9 @@ struct Targets {
     gpu::Image samples;         // RGBA32UI, a layer per ray: see shaders/shared/sampling.h
     gpu::Image samplesHalf;     // the same at half resolution, a layer per choice
     gpu::Image rayResults;      // R32UI, a layer per ray
+    gpu::Image newReservoirs;   // RGBA32UI, before neighbours share theirs: see shaders/shared/resampling.h
+    gpu::Image reservoirs;      // the same after that
+    gpu::Image previousReservoirs;
     gpu::Image historyDiffuse;  // RGBA16F: exposed light like litDiffuse, and the frames that it holds
     gpu::Image historySpecular; // the same of litSpecular
     gpu::Image historyMoments;  // RGBA16F: mean and deviation of luminance, diffuse and specular

@@ -21,7 +21,17 @@ Legend viewLegend(int view, double exposure, double depthMiddleM, const std::opt
 // The same for the shader.
 shared::ViewConstants viewConstants(int view, const Legend& legend, double depthMiddleM);
 
-enum class Method { Stochastic, AllLights, ReferenceSplit, ReferenceTrue };
+// The last ones are baselines that resample.
+enum class Method {
+    Stochastic,
+    AllLights,
+    ReferenceSplit,
+    ReferenceTrue,
+    Uniform,
+    Power,
+    Resampling,
+    Restir
+};
 
 // Views of what only the stochastic method makes; their help begins with "stochastic:".
 bool isStochasticView(int view);

@@ -10,6 +10,7 @@
 #include "renderer/visible_lists.h"
 #include "shaders/shared/frame.h"
 #include "shaders/shared/probe.h"
+#include "shaders/shared/resampling.h"
 #include "shaders/shared/views.h"
 
 namespace kilolux {
@@ -126,6 +127,26 @@ class TraceSamplesPass {
   public:
     TraceSamplesPass(gpu::PassResources& resources, TraceBackEnd tracer);
     void record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t layer);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+// The baselines' choice of a light and a point on it; see shared/resampling.h.
+class ResampleLightsPass {
+  public:
+    ResampleLightsPass(gpu::PassResources& resources, TraceBackEnd tracer);
+    void record(FrameContext& frame, const gpu::Bindings& world, const shared::ResamplingConstants& how);
+
+  private:
+    gpu::ComputePass pass_;
+};
+
+// Their reuse among neighbours, shadow ray and shading.
+class ReuseReservoirsPass {
+  public:
+    ReuseReservoirsPass(gpu::PassResources& resources, TraceBackEnd tracer);
+    void record(FrameContext& frame, const gpu::Bindings& world, const shared::ResamplingConstants& how);
 
   private:
     gpu::ComputePass pass_;

@@ -9,6 +9,7 @@
 #include "shaders/shared/geometry.h"
 #include "shaders/shared/gpu_light.h"
 #include "shaders/shared/probe.h"
+#include "shaders/shared/resampling.h"
 #include "shaders/shared/views.h"
 
 #include <bit>
@@ -111,6 +112,8 @@ STRUCT_TEST(GridConstants)
 STRUCT_TEST(SamplingConstants)
 STRUCT_TEST(DenoisingConstants)
 STRUCT_TEST(ViewConstants)
+STRUCT_TEST(ResamplingConstants)
+STRUCT_TEST(LightPower)
 STRUCT_TEST(ProbeRequest)
 STRUCT_TEST(ProbeSurface)
 STRUCT_TEST(ProbeLight)

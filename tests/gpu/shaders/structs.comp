@@ -5,6 +5,7 @@
 #include "shared/geometry.h"
 #include "shared/gpu_light.h"
 #include "shared/probe.h"
+#include "shared/resampling.h"
 #include "shared/views.h"
 #include "tests/gpu/shaders/struct_fields.h"
 

@@ -1,0 +1,86 @@
+// The baselines that resample: the unbiased ones have the mean of the reference 'true', reuse takes noise
+// away and, biased, light.
+#include "tests/image/loop/loop_kit.h"
+
+#include "renderer/measure/metrics.h"
+
+namespace kilolux::test {
+namespace {
+
+constexpr int kWidth = 96, kHeight = 64;
+
+RenderOptions baselineOptions(const std::string& method, const std::vector<std::string>& settings = {}) {
+    RenderOptions options = loopOptions(kWidth, kHeight, settings);
+    options.method = method;
+    return options;
+}
+
+// Frames that reuse are no replicas of one another: each begins with a cut.
+MakeReplica framesAfterCut(Loop& loop, const Camera& camera, int frames) {
+    return [&loop, camera, frames] {
+        loop.renderer().setCamera(camera, Renderer::CameraChange::Cut);
+        loop.frames(frames - 1);
+        return lightOf(loop.next());
+    };
+}
+
+Replicas trueReference(const Scene& scene) {
+    Loop loop(scene, baselineOptions("true", {"raysPerLight=4"}));
+    return gather(framesOf(loop, 1), 0.001, 64);
+}
+
+struct Baseline {
+    const char* method;
+    std::vector<std::string> settings;
+};
+
+TEST(Baselines, UnbiasedOnesHaveTheMeanOfTrueBiasedReuseLosesLight) {
+    const Scene scene = crowdScene(24, 5);
+    const Replicas reference = trueReference(scene);
+    for (const Baseline& b : {Baseline{"uniform", {}},
+                              {"power", {}},
+                              {"resampling", {"resampleCandidates=8"}},
+                              {"resampling", {"resampleCandidates=8", "resampleFrom=power"}}}) {
+        Loop loop(scene, baselineOptions(b.method, b.settings));
+        expectSameMean(gather(framesOf(loop)), reference, b.method);
+    }
+    Loop loop(scene, baselineOptions("restir", {"resampleCandidates=8", "reuseUnbiased=true"}));
+    expectSameMean(gather(framesAfterCut(loop, scene.cameras[0], 4)), reference, "restir, unbiased");
+
+    // Biased reuse loses light at the borders of shadows.
+    Loop biased(scene, baselineOptions("restir", {"resampleCandidates=8"}));
+    const Replicas light = gather(framesAfterCut(biased, scene.cameras[0], 4), 0.005, 64);
+    const double ratio = light.mean(Light::Luminance).mean / reference.mean(Light::Luminance).mean;
+    std::printf("restir, biased: %+.2f %%\n", 100.0 * (ratio - 1.0));
+    EXPECT_LT(ratio, 0.99);
+    EXPECT_GT(ratio, 0.7);
+}
+
+// As published: far less noise than the resampling that it builds on, from equally many candidates. The
+// radius is that of a small picture.
+TEST(Baselines, ReuseTakesNoiseAway) {
+    const Scene scene = crowdScene(24, 5);
+    Loop exact(scene, baselineOptions("all-lights", {"raysPerLight=16", "picture=mean"}));
+    exact.frames(15);
+    const Picture reference = exact.next();
+    const auto errorOf = [&](const char* method, const std::vector<std::string>& settings) {
+        Loop loop(scene, baselineOptions(method, settings));
+        loop.frames(15);
+        const Picture picture = loop.next();
+        const measure::ImageView wanted{kWidth, kHeight, reference.rgb}, got{kWidth, kHeight, picture.rgb};
+        return measure::relativeMeanSquaredError(wanted, got);
+    };
+    const double plain = errorOf("resampling", {"resampleCandidates=8"});
+    const double inTime = errorOf("restir", {"resampleCandidates=8", "reuseNeighbours=0"});
+    const double both = errorOf("restir", {"resampleCandidates=8", "reuseRadius=8"});
+    const double unbiased =
+        errorOf("restir", {"resampleCandidates=8", "reuseRadius=8", "reuseUnbiased=true"});
+    std::printf("squared relative error: resampling %.4f, in time %.4f, and space %.4f, unbiased %.4f\n",
+                plain, inTime, both, unbiased);
+    EXPECT_LT(inTime, 0.5 * plain);
+    EXPECT_LT(both, 0.5 * plain);
+    EXPECT_LT(unbiased, 0.75 * plain); // its weights are noisier
+}
+
+} // namespace
+} // namespace kilolux::test
