@@ -31,6 +31,12 @@ static std::byte toByte(float unit) {
     return std::byte(std::lround(255.0f * std::clamp(unit, 0.0f, 1.0f)));
 }
 
+Legend errorLegend() {
+    Legend legend; // 0 to 1
+    legend.map = ColorMap::Amount;
+    return legend;
+}
+
 std::shared_ptr<const ShownFrame> errorPicture(const ErrorReport& report) {
     auto result = std::make_shared<ShownFrame>();
     result->width = report.width;

@@ -42,6 +42,7 @@ struct Snapping {
     double moveM = 0.1;
     double angleDeg = 5.0;
     double scale = 0.1;
+    bool operator==(const Snapping&) const = default;
 };
 
 enum class RightTab { None, Light, View, Probe, Cost };
@@ -51,6 +52,7 @@ struct PanelVisibility {
     bool lights = true;
     bool properties = true;
     bool outlines = true; // of lights in the viewport
+    bool operator==(const PanelVisibility&) const = default;
 };
 
 // What the program says to the user; errors stay until closed, others fade.

@@ -45,7 +45,9 @@ fs::path drawFolder(Desk& desk) {
     ImGui::AlignTextToFramePadding();
     textWithin(files.folder.string(), ImGui::GetContentRegionAvail().x);
     const float height = std::min(px(desk, 320), ImGui::GetIO().DisplaySize.y - px(desk, 180));
-    ImGui::BeginChild("entries", {0, height});
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, theme::kEmpty);
+    ImGui::BeginChild("entries", {0, height}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    ImGui::PopStyleColor();
     for (const FileTasks::Entry& entry : files.entries) {
         const std::string text =
             fmt::format("{}  {}", entry.isFolder ? theme::kFolder : theme::kFile, entry.name);
@@ -221,7 +223,7 @@ void drawFirstRun(Desk& desk, const ViewportRect& rect) {
         ImGui::PushID(int(i));
         if (ImGui::Selectable("##recent")) openScene(desk, path);
         mark(desk, fmt::format("first.recent.{}", i));
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", recent[i].c_str());
+        tooltip(recent[i].c_str());
         ImGui::SameLine(0, 0);
         ImGui::TextUnformatted(path.filename().string().c_str());
         ImGui::SameLine();
@@ -234,7 +236,7 @@ void drawFirstRun(Desk& desk, const ViewportRect& rect) {
     ImGui::PushStyleColor(ImGuiCol_Text, theme::kDim);
     ImGui::TextWrapped(
         "Right mouse and W A S D fly, Alt and left mouse orbits, the wheel comes closer, F frames "
-        "what is selected, Tab hides the panels.");
+        "what is selected, Tab hides the panels. F1 shows every key.");
     ImGui::PopStyleColor();
     ImGui::End();
 }

@@ -24,7 +24,7 @@ constexpr KeyRow kRows[] = {
     {Tools, "=", "Larger gizmo", KeyAction::LargerGizmo, GLFW_KEY_EQUAL},
     {Tools, "-", "Smaller gizmo", KeyAction::SmallerGizmo, GLFW_KEY_MINUS},
     {Tools, "Ctrl", "Hold to snap while dragging"},
-    {Tools, "Esc", "Cancel a drag, else select nothing", KeyAction::Cancel, GLFW_KEY_ESCAPE},
+    {Tools, "Esc", "Cancel a drag or a choice, else select nothing", KeyAction::Cancel, GLFW_KEY_ESCAPE},
     {Lights, "Click, Shift+click", "Select, add to the selection or take away"},
     {Lights, "Drag", "Select by a rectangle"},
     {Lights, "Ctrl+A", "Select all", KeyAction::SelectAll, GLFW_KEY_A, true},

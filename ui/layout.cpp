@@ -64,6 +64,7 @@ void drawRightColumn(Desk& desk) {
         mark(desk, place);
         if (!open) return;
         ImGui::BeginChild(name);
+        ImGui::Dummy({0, px(desk, 4)});
         draw(desk);
         ImGui::EndChild();
         ImGui::EndTabItem();

@@ -14,6 +14,7 @@
 #include "ui/widgets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
@@ -344,9 +345,13 @@ void drawLightList(Desk& desk) {
     const float bar = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.y;
     const float whole = ImGui::GetContentRegionAvail().y;
     const float history = state.showsHistory ? std::max(0.35f * whole, 3 * bar) : bar;
-    ImGui::BeginChild("rows", {0, std::max(whole - history, bar)}, false);
+    // Whole rows: none is cut by what stands below.
+    const float row = ImGui::GetFrameHeight(), room = std::max(whole - history, bar);
+    const float rows = row * std::floor(room / row);
+    ImGui::BeginChild("rows", {0, rows}, false);
     drawRows(desk, state);
     ImGui::EndChild();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + room - rows);
     drawHistoryPanel(desk);
 }
 

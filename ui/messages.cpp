@@ -43,7 +43,7 @@ std::vector<Activity> activities(const Desk& desk) {
     if (rendering.words.empty() || !desk.session) return all;
     if (steadyMs() - rendering.sinceMs < 1000.0 * kShowAfterS) return all;
     if (rendering.opens) {
-        all.push_back({"Preparing " + desk.session->path().filename().string(), rendering.words,
+        all.push_back({"Opening " + desk.session->path().filename().string(), rendering.words,
                        rendering.share, "activity.close", requestClose});
     } else {
         all.push_back({rendering.words, "", rendering.share, desk.view.empty() ? nullptr : "activity.view",

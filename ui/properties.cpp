@@ -55,7 +55,7 @@ bool beginSection(Desk& desk, const char* name) {
 void drawSharing(Desk& desk, PropertiesState& state) {
     if (state.othersSharing == 0) return;
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextDisabled("Shares its properties with %s. A change is for",
+    ImGui::TextDisabled("Shared with %s; a change is for",
                         countedLights(std::size_t(state.othersSharing)).c_str());
     ImGui::PopTextWrapPos();
     const bool all = state.sharing == Sharing::EditAll;
@@ -86,7 +86,7 @@ void drawType(Desk& desk, PropertiesState& state) {
     const LightType type = std::get<LightType>(value.value);
     const float width = rowLabel(desk, "Type", nullptr);
     ImGui::SetNextItemWidth(width);
-    if (ImGui::BeginCombo("##type", value.mixed ? "mixed" : typeName(type).data())) {
+    if (beginCombo("##type", value.mixed ? "mixed" : typeName(type).data())) {
         for (const LightTypeWord& word : kLightTypeWords) {
             const bool same = !value.mixed && word.type == type;
             if (ImGui::Selectable(typeName(word.type).data(), same) && !same) {
@@ -110,7 +110,7 @@ void drawGroupChoice(Desk& desk, PropertiesState& state) {
     const float width = rowLabel(desk, "Group", "Dims, tints and mutes its lights together");
     ImGui::SetNextItemWidth(width);
     const std::string shown = value.mixed ? "mixed" : at < 0 ? "none" : scene.groups[std::size_t(at)].name;
-    const bool open = ImGui::BeginCombo("##group", shown.c_str());
+    const bool open = beginCombo("##group", shown.c_str());
     if (!open) return mark(desk, "group");
     std::optional<std::uint64_t> chosen;
     if (ImGui::Selectable("none", !value.mixed && id == 0)) chosen = 0;
@@ -216,7 +216,6 @@ void drawProperties(Desk& desk) {
     PropertiesState& state = propertiesOf(desk);
     refresh(desk, state);
     state.fieldCount = 0;
-    ImGui::Dummy({0, px(desk, 4)});
     if (desk.selection.empty()) {
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled(

@@ -185,6 +185,7 @@ std::optional<glm::dvec3> colorField(Desk& desk, const std::string& id, const Co
         if (ImGui::ColorPicker3("##picker", picked,
                                 ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_DisplayRGB))
             result = most * linearFromSrgb({picked[0], picked[1], picked[2]});
+        mark(desk, id + ".picker");
         ended = !ImGui::IsMouseDown(0) && !ImGui::IsAnyItemActive();
         ImGui::EndPopup();
     }

@@ -118,14 +118,20 @@ void drawProgress(Desk& desk, const LiveReference::State& live) {
     const std::string words = prepares ? live.preparing
                                        : fmt::format("Reference: {} of {} frames{}", live.frames,
                                                      LiveReference::kMostFrames, waits);
-    ImGui::TextDisabled("%s", words.c_str());
+    const float stop = ImGui::CalcTextSize("Stop").x + 2 * ImGui::GetStyle().FramePadding.x;
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::kDim);
+    textWithin(words, ImGui::GetContentRegionAvail().x - stop - px(desk, 8));
+    ImGui::PopStyleColor();
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - stop);
+    const bool stops = textButton(desk, "reference.stop", "Stop");
+    tooltip("Gives the reference up");
     progressBar(desk, prepares ? live.preparedShare : double(live.frames) / LiveReference::kMostFrames);
     mark(desk, "reference.progress");
-    if (textButton(desk, "reference.stop", "Stop")) {
+    if (stops) {
         ref.measures = false;
         stopMeasuring(desk);
     }
-    tooltip("Gives the reference up");
 }
 
 void drawLive(Desk& desk) {
@@ -150,9 +156,9 @@ void drawLive(Desk& desk) {
     if (!live.problem.empty()) ImGui::TextWrapped("%s", live.problem.c_str());
     drawProgress(desk, live);
     if (!ref.report) return;
-    ImGui::Text("FLIP %.4f (95 %%: %.3f)   relMSE %.5f", ref.report->flipMean, ref.report->flip95,
-                ref.report->relativeMse);
+    ImGui::Text("FLIP %.4f, 95 %% of it within %.3f", ref.report->flipMean, ref.report->flip95);
     mark(desk, "reference.error");
+    ImGui::Text("relMSE %.3g", ref.report->relativeMse);
     const auto mode = [&](const char* place, const char* text, Comparing which) {
         const bool shown = ref.mode == which;
         if (textButton(desk, place, text, shown ? ButtonLook::Active : ButtonLook::Plain))
@@ -239,16 +245,46 @@ void toggleStored(Desk& desk) {
     if (ref.stored) ref.mode = ref.mode == Comparing::Stored ? Comparing::Off : Comparing::Stored;
 }
 
+// What the colours of the error map mean, in the corner of the picture.
+void drawErrorLegend(Desk& desk, ImDrawList& canvas) {
+    const Legend legend = errorLegend();
+    const ViewportRect& rect = desk.viewport.rect;
+    const float pad = px(desk, 8), width = px(desk, 160), height = px(desk, 8);
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 corner{float(rect.x) + pad, float(rect.y) + pad};
+    canvas.AddRectFilled(corner, {corner.x + width + 2 * pad, corner.y + 2 * line + height + 2 * pad},
+                         IM_COL32(24, 24, 24, 220), px(desk, 3));
+    const ImVec2 at{corner.x + pad, corner.y + pad};
+    canvas.AddText(at, theme::kText, "FLIP against the reference");
+    constexpr int kSteps = 64;
+    const float top = at.y + line + px(desk, 2);
+    if (desk.recordsPlaces) desk.places["reference.legend"] = {at.x, top, width, height};
+    for (int i = 0; i < kSteps; ++i) {
+        const std::array<float, 3> srgb = legendColor(legend, (i + 0.5) / kSteps);
+        canvas.AddRectFilled({at.x + width * float(i) / kSteps, top},
+                             {at.x + width * float(i + 1) / kSteps, top + height},
+                             ImGui::ColorConvertFloat4ToU32({srgb[0], srgb[1], srgb[2], 1.0f}));
+    }
+    for (const LegendTick& tick : legendTicks(legend, 3)) {
+        const float textWidth = ImGui::CalcTextSize(tick.text.c_str()).x;
+        const float x =
+            at.x + std::clamp(width * float(tick.position) - 0.5f * textWidth, 0.0f, width - textWidth);
+        canvas.AddText({x, top + height}, theme::kDim, tick.text.c_str());
+    }
+}
+
 void drawReferenceOverlay(Desk& desk, ImDrawList& canvas) {
     ReferenceState& ref = state(desk);
     followLive(desk);
     compose(desk);
     if (ref.mode == Comparing::Split && ref.composed) drawSplitLine(desk, canvas);
-    if (ref.mode == Comparing::Stored && ref.composed) {
-        const ViewportRect& rect = desk.viewport.rect;
-        canvas.AddText({float(rect.x) + px(desk, 8), float(rect.y) + px(desk, 8)}, theme::kAccent,
-                       "stored picture");
-    }
+    if (ref.mode == Comparing::Error && ref.composed) drawErrorLegend(desk, canvas);
+    const char* name = ref.mode == Comparing::Stored      ? "stored picture"
+                       : ref.mode == Comparing::Reference ? "reference"
+                                                          : "";
+    const ViewportRect& rect = desk.viewport.rect;
+    if (ref.composed)
+        canvas.AddText({float(rect.x) + px(desk, 8), float(rect.y) + px(desk, 8)}, theme::kAccent, name);
 }
 
 std::shared_ptr<const ShownFrame> comparedPicture(const Desk& desk) {

@@ -41,8 +41,9 @@ struct ReferenceState {
 // Left of `at` (a share of the width) `left`, right of it `right`, which gives the size.
 std::shared_ptr<const ShownFrame> splitPicture(const ShownFrame& left, const ShownFrame& right, double at);
 
-// The map of a report in the colours of amounts, 0 to 1.
+// The map of a report in the colours of amounts, and what they mean.
 std::shared_ptr<const ShownFrame> errorPicture(const ErrorReport& report);
+Legend errorLegend();
 
 // The live reference begins anew: what it was of is closed. The stored picture stays.
 void forgetReference(Desk& desk);

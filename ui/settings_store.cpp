@@ -38,6 +38,7 @@ void visit(Io& io, Remembered& r) {
     io("leastScale", r.limits.leastScale, 0.1, 1.0);
     io("meanFrames", r.limits.meanFrames, 1u, 100000u);
     io("sliceMs", r.limits.sliceMs, 0.0, 1000.0);
+    io("restMs", r.limits.restMs, 0.0, 10000.0);
     io("mostPixels", r.limits.mostPixels, 0u, 1u << 26);
 }
 

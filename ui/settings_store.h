@@ -22,6 +22,7 @@ struct Remembered {
     // Names of the lights that are not to be picked, by recent scene. They are no part of the file: who locks
     // lights keeps their own hands off them.
     std::map<std::string, std::vector<std::string>> locked;
+    bool operator==(const Remembered&) const = default;
 };
 
 // Where it lies: below $XDG_CONFIG_HOME or ~/.config; empty when neither is set.

@@ -73,6 +73,7 @@ std::string stateText(const Desk& desk, const WindowTimes& times) {
         {"saving", desk.files->isSaving()},
         {"notices", std::move(notices)},
         {"panels", desk.panels.all},
+        {"help", desk.showsHelp},
         {"uiScale", desk.uiScale},
         {"places", std::move(places)},
         {"frames", times.frames},

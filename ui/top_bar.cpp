@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <string>
 
 namespace kilolux {
 
@@ -58,10 +59,14 @@ void drawTools(Desk& desk) {
 void drawSpace(Desk& desk) {
     constexpr const char* kNames[] = {"World", "Local", "View"};
     ImGui::SetNextItemWidth(px(desk, 92));
-    int space = int(desk.space);
-    if (ImGui::Combo("##space", &space, kNames, 3)) desk.space = GizmoSpace(space);
+    const bool open = beginCombo("##space", kNames[int(desk.space)]);
+    for (int space = 0; open && space < 3; ++space) {
+        if (ImGui::Selectable(kNames[space], space == int(desk.space))) desk.space = GizmoSpace(space);
+        mark(desk, std::string("space.") + kNames[space]);
+    }
+    if (open) ImGui::EndCombo();
     mark(desk, "top.space");
-    tooltip("Axes of the gizmo (X: world or local)");
+    if (!open) tooltip("Axes of the gizmo (X: world or local)");
     ImGui::SameLine();
     const ButtonLook look = desk.snapping.always ? ButtonLook::Active : ButtonLook::Plain;
     if (iconButton(desk, "top.snap", theme::kSnap, "Snap always (hold Ctrl to snap once)", look))

@@ -10,9 +10,11 @@
 #include "ui/view_choice.h"
 #include "ui/widgets.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 namespace kilolux {
@@ -107,7 +109,9 @@ void drawRange(Desk& desk, const Legend& legend) {
             desk.renderThread->setView(desk.view);
         }
     }
-    if (!typed || !(ends[1] > ends[0])) return;
+    // Endless numbers can be typed, and those that a shader cannot hold.
+    const auto usable = [](double end) { return std::abs(end) <= double(std::numeric_limits<float>::max()); };
+    if (!typed || !(ends[1] > ends[0]) || !usable(ends[0]) || !usable(ends[1])) return;
     panel.range = ViewRange{ends[0], ends[1]};
     desk.renderThread->setView(desk.view, panel.range);
 }
@@ -260,6 +264,7 @@ nlohmann::json viewPanelState(const Desk& desk) {
         const auto& probe = desk.viewPanel->pointer.answer();
         json["pointer"] = {{"x", probe->pixel.x}, {"y", probe->pixel.y}, {"value", probe->viewValue.x}};
     }
+    json["picking"] = desk.probe && desk.probe->picking;
     if (desk.probe && desk.probe->probe.answer()) {
         const Probe& probe = *desk.probe->probe.answer();
         json["probe"] = {{"x", probe.pixel.x}, {"y", probe.pixel.y}, {"lux", probe.lux}, {"nit", probe.nit}};

@@ -51,6 +51,13 @@ bool textButton(Desk& desk, const char* name, const char* text, ButtonLook look)
     return pressed;
 }
 
+bool beginCombo(const char* id, const char* preview) {
+    ImGui::PushStyleColor(ImGuiCol_Button, theme::kField);
+    const bool open = ImGui::BeginCombo(id, preview);
+    ImGui::PopStyleColor();
+    return open;
+}
+
 void tooltip(const char* text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     // How long the pointer has been still, kept with the window.

@@ -17,6 +17,9 @@ bool iconButton(Desk& desk, const char* name, const char* icon, const char* tip,
                 ButtonLook look = ButtonLook::Plain);
 bool textButton(Desk& desk, const char* name, const char* text, ButtonLook look = ButtonLook::Plain);
 
+// ImGui::BeginCombo in one piece with its arrow.
+bool beginCombo(const char* id, const char* preview);
+
 // The last item's help, after the pointer has rested on it.
 void tooltip(const char* text);
 

@@ -149,8 +149,25 @@ class Views(WindowCase):
         self.window.click("reference.map")
         self.window.wait(lambda s: s["viewPanel"]["comparing"] == 3, "the map of the error")
         self.picture("error")
-        self.window.click("reference.live")
-        self.window.wait(lambda s: s["viewPanel"]["comparing"] == 0, "the picture")
+        self.check_map(self.window.wait_place("reference.legend"))
+        self.window.click("reference.stop")
+        state = self.window.wait(lambda s: s["viewPanel"]["comparing"] == 0, "the picture")
+        self.assertNotIn("error", state["viewPanel"], "what was measured is given up")
+
+    def check_map(self, legend):
+        """Every pixel of the map has a colour of its legend, and there are several."""
+        x, y, w, h = (int(v) for v in self.window.state()["viewport"])
+        left, top, width, height = (int(v) for v in legend)
+
+        def colours():
+            _, _, rows = self.window.screen.pixels()
+            at = lambda px, py: tuple(rows[py][px * 4:px * 4 + 3])  # noqa: E731
+            bar = [at(left + i, top + height // 2) for i in range(1, width - 1)]
+            # A grid over the lower part, where no outline and no legend is.
+            shown = [at(x + i * w // 24, y + j * h // 24) for i in range(1, 24) for j in range(13, 24)]
+            far = max(min(sum(abs(a - b) for a, b in zip(c, d)) for d in bar) for c in shown)
+            return far < 30 and len(set(shown)) > 10
+        wait_for(colours, "a map in the legend's colours")
 
     def test_7_the_view_goes_to_a_file(self):
         self.window.click("tab.view")

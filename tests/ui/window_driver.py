@@ -31,7 +31,7 @@ class Timeout(AssertionError):
     pass
 
 
-def wait_for(condition, what, timeout_s=60.0):
+def wait_for(condition, what, timeout_s=180.0):
     """Polls until condition() is true and returns what it gave. The time only ends a test that would hang."""
     end = time.monotonic() + timeout_s
     while True:
@@ -184,7 +184,7 @@ class Window:
         except (FileNotFoundError, json.JSONDecodeError):
             return None
 
-    def wait(self, condition, what, timeout_s=60.0):
+    def wait(self, condition, what, timeout_s=180.0):
         """Until condition(state) holds; returns the state."""
         def look():
             if self.process.poll() is not None:

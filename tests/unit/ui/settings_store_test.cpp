@@ -3,6 +3,7 @@
 #include "ui/settings_store.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
@@ -16,25 +17,51 @@ std::filesystem::path freshPath(const char* name) {
     return path;
 }
 
-TEST(Remembered, ComesBack) {
-    const auto path = freshPath("remembered");
-    Remembered before;
-    before.windowWidth = 1111;
-    before.leftWidth = 301.5;
-    before.panels.outlines = false;
-    before.snapping.angleDeg = 7.5;
-    before.limits.meanFrames = 12;
-    rememberScene(before, "/a.glb");
-    rememberScene(before, "/b.glb");
-    rememberScene(before, "/a.glb");
+// Every member differs from what it is by default: one that is forgotten on either way shows.
+Remembered everythingChanged() {
+    Remembered r;
+    r.windowWidth = 1111;
+    r.windowHeight = 666;
+    r.uiScale = 1.75;
+    r.leftWidth = 301.5;
+    r.rightWidth = 402.5;
+    r.panels = {false, false, false, false};
+    r.snapping = {true, 0.25, 7.5, 0.5};
+    r.gizmoSizePx = 120.0;
+    r.limits = {55.0, 0.45, 12, 123'456, 7.5, 333.0};
+    r.recent = {"/a.glb", "/b \"quoted\".glb"};
+    r.locked = {{"/a.glb", {"Lamp", "L\xC3\xA4mp"}}};
+    return r;
+}
+
+nlohmann::json jsonOf(const std::filesystem::path& path) {
+    const Result<std::string> text = readWholeFile(path);
+    EXPECT_TRUE(text);
+    return nlohmann::json::parse(text ? text.value() : "null");
+}
+
+TEST(Remembered, EveryMemberComesBack) {
+    const auto path = freshPath("remembered"), other = freshPath("defaults");
+    const Remembered before = everythingChanged();
     ASSERT_FALSE(writeRemembered(path, before));
-    const Remembered after = readRemembered(path);
-    EXPECT_EQ(after.windowWidth, 1111);
-    EXPECT_EQ(after.leftWidth, 301.5);
-    EXPECT_FALSE(after.panels.outlines);
-    EXPECT_EQ(after.snapping.angleDeg, 7.5);
-    EXPECT_EQ(after.limits.meanFrames, 12u);
-    EXPECT_EQ(after.recent, (std::vector<std::string>{"/a.glb", "/b.glb"}));
+    EXPECT_TRUE(readRemembered(path) == before);
+    ASSERT_FALSE(writeRemembered(other, Remembered()));
+    const nlohmann::json changed = jsonOf(path), defaults = jsonOf(other);
+    ASSERT_EQ(changed.size(), defaults.size());
+    for (const auto& [name, value] : defaults.items())
+        EXPECT_NE(changed.at(name), value) << name << ": the test is to change every member";
+    EXPECT_TRUE(readRemembered(other) == Remembered());
+}
+
+TEST(Remembered, ScenesStandOnceTheNewestFirst) {
+    Remembered r;
+    for (const char* scene : {"/a.glb", "/b.glb", "/a.glb"})
+        rememberScene(r, scene);
+    EXPECT_EQ(r.recent, (std::vector<std::string>{"/a.glb", "/b.glb"}));
+    r.locked = {{"/a.glb", {"Lamp"}}, {"/gone.glb", {"Lamp"}}, {"/b.glb", {}}};
+    const auto path = freshPath("locks");
+    ASSERT_FALSE(writeRemembered(path, r));
+    EXPECT_EQ(readRemembered(path).locked.size(), 1u) << "of recent scenes alone";
 }
 
 TEST(Remembered, WrongContentKeepsTheDefaults) {
