@@ -49,7 +49,7 @@ constexpr KeyRow kRows[] = {
     {Views, "P, then a click", "Probe a pixel"},
     {Views, "B", "Toggle the stored picture"},
     {Window, "Tab", "Hide or show all panels"},
-    {Window, "F1", "This list", KeyAction::Help, GLFW_KEY_F1},
+    {Window, "F1", "This list"},
 };
 
 } // namespace

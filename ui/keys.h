@@ -28,8 +28,7 @@ enum class KeyAction : std::uint8_t {
     Group,
     Ungroup,
     AddMenu,
-    Rename,
-    Help
+    Rename
 };
 
 enum class KeyGroup : std::uint8_t { File, Tools, Lights, Camera, Views, Window };

@@ -105,7 +105,6 @@ void act(Desk& desk, KeyAction action) {
     case KeyAction::Rename:
         if (!desk.selection.empty()) beginRename(desk, LightRow::Kind::Light, desk.selection.front());
         break;
-    case KeyAction::Help: // of the window: it is there without a scene
     case KeyAction::None:
         break;
     }

@@ -249,7 +249,7 @@ void toggleStored(Desk& desk) {
 void drawErrorLegend(Desk& desk, ImDrawList& canvas) {
     const Legend legend = errorLegend();
     const ViewportRect& rect = desk.viewport.rect;
-    const float pad = px(desk, 8), width = px(desk, 160), height = px(desk, 8);
+    const float pad = px(desk, 8), width = px(desk, 176), height = px(desk, 8);
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 corner{float(rect.x) + pad, float(rect.y) + pad};
     canvas.AddRectFilled(corner, {corner.x + width + 2 * pad, corner.y + 2 * line + height + 2 * pad},

@@ -204,6 +204,24 @@ TEST_F(RenderThreadTest, JobsRunBetweenFramesAndWrongViewsAreTold) {
     EXPECT_EQ(ran, int(scene.lights.size()));
 }
 
+TEST_F(RenderThreadTest, ClosingGivesUpWhatIsPreparedAndTheNextSceneComes) {
+    const auto waitForWords = [&](bool some) {
+        const double endMs = steadyMs() + 120e3;
+        while (thread.activity().words.empty() == some && steadyMs() < endMs)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return thread.activity().words.empty() != some;
+    };
+    open();
+    ASSERT_TRUE(waitForWords(true));
+    EXPECT_TRUE(thread.activity().opens);
+    thread.close();
+    ASSERT_TRUE(waitForWords(false));
+    EXPECT_FALSE(thread.takeFrame());
+    EXPECT_FALSE(thread.takeError()) << "who gives up needs not be told";
+    open();
+    waitFor([](const ShownFrame& f) { return f.settled; });
+}
+
 TEST_F(RenderThreadTest, PausedItRendersNothing) {
     open();
     waitFor([](const ShownFrame& f) { return f.settled; });

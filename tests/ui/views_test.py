@@ -16,12 +16,8 @@ class Views(WindowCase):
         super().setUpClass()
         cls.shared = cls("runTest")
         WindowCase.setUp(cls.shared)
+        cls.addClassCleanup(WindowCase.tearDown, cls.shared)
         cls.window, _ = cls.shared.open_scene("cornell.glb", size=(1280, 720) if os.environ.get("KILOLUX_UI_PICTURES") else (960, 540))
-
-    @classmethod
-    def tearDownClass(cls):
-        WindowCase.tearDown(cls.shared)
-        super().tearDownClass()
 
     def setUp(self):
         pass

@@ -35,10 +35,7 @@ class WindowCase(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.screen = Screen(*cls.screenSize)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.screen.close()
+        cls.addClassCleanup(cls.screen.close)  # also where a subclass fails to set up
 
     def setUp(self):
         self.home = tempfile.mkdtemp(prefix="kilolux-home-")
