@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Writes the scenes that the project ships: make.py [--out FOLDER] [scene...], all of them without names. A
-name that ends in a number is its module's layout of that seed: hidden_lights_7. Needs Python 3 and numpy. The
+"""Writes the scenes and profiles that the project ships: make.py [--out FOLDER] [--ies FOLDER] [scene...], all
+of them without names. A name that ends in a number is its module's layout of that seed: hidden_lights_7. Needs Python 3 and numpy. The
 same bytes come out of every run."""
 import argparse
 import importlib
@@ -10,7 +10,7 @@ import sys
 import time
 
 SEEDED = "hidden_lights"
-SCENES = ("cornell", "gallery", "night_market", "half_hidden", "sun_room", "motion",
+SCENES = ("cornell", "gallery", "night_market", "half_hidden", "sun_room", "motion", "sampler",
           *(f"{SEEDED}_{seed}" for seed in range(1, 6)))
 
 
@@ -27,15 +27,25 @@ def build(name):
     return importlib.import_module(name).build()
 
 
+def write_profiles(folder):
+    os.makedirs(folder, exist_ok=True)
+    for name, profile in importlib.import_module("profiles").profiles().items():
+        with open(os.path.join(folder, name), "w", encoding="ascii", newline="") as file:
+            file.write(profile.text())
+
+
 def main():
     here = os.path.dirname(os.path.abspath(__file__))
     sys.path.insert(0, here)
     sys.dont_write_bytecode = True
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", default=os.path.join(here, "..", "scenes"))
+    parser.add_argument("--ies", help="folder of the photometric profiles; content/ies when no scene is named")
     parser.add_argument("scene", nargs="*", type=scene_name, help="all when none is named")
     arguments = parser.parse_args()
     os.makedirs(arguments.out, exist_ok=True)
+    if arguments.ies or not arguments.scene:
+        write_profiles(arguments.ies or os.path.join(here, "..", "ies"))
     for name in arguments.scene or SCENES:
         start = time.monotonic()
         scene = build(name)

@@ -203,7 +203,25 @@ class _Writer:
                 store.append(definition)
             self.use(key)
             out.setdefault("extensions", {})[key] = {"light": store.index(definition)}
-        out["extras"] = {"kilolux": light.extras()}
+        extras = light.extras()
+        if light.profile is not None:
+            extras["iesProfile"] = f"#/bufferViews/{self.shared_view(light.profile.encode())}"
+        for key, data in light.pictures:
+            extras[key] = f"#/images/{self.light_image(data)}"
+        out["extras"] = {"kilolux": extras}
+
+    def shared_view(self, data):
+        if data not in self.cache:
+            self.cache[data] = self.view(data)
+        return self.cache[data]
+
+    def light_image(self, data):
+        """An image that only a light refers to: it needs no texture."""
+        key = ("light", data)
+        if key not in self.cache:
+            self.json["images"].append({"bufferView": self.view(data), "mimeType": "image/png"})
+            self.cache[key] = len(self.json["images"]) - 1
+        return self.cache[key]
 
     def node(self, node, index):
         out = {"name": node.name}

@@ -31,6 +31,11 @@ class Light:
     door_angle_rad: Optional[float] = None
     door_length_m: Optional[float] = None
     ray_end_bias_m: float = 0.0
+    # Further properties by their names in extras.md, and files that go into the scene's own: the text of a profile,
+    # pictures (h, w, 3) by property.
+    shaping: tuple = ()       # pairs
+    profile: Optional[str] = None
+    pictures: tuple = ()      # pairs of a property and the pixels' bytes, already encoded
 
     def rgb(self):
         """Tint times temperature, what one unit of intensity is multiplied by."""
@@ -88,6 +93,7 @@ class Light:
                     "angularDiameterRad": self.angular_diameter_rad or None,
                     "rayEndBiasM": self.ray_end_bias_m or None}
         out.update({k: v for k, v in optional.items() if v is not None})
+        out.update(self.shaping)
         return {k: round(v, 6) if isinstance(v, float) else v for k, v in out.items()}
 
     def punctual(self):
