@@ -88,9 +88,10 @@ Problem checkArguments(Arguments& arguments) {
         return Failure{
             ExitCode::BadInput,
             fmt::format("--stats '{}' would overwrite the scene or the picture", arguments.statistics)};
-    // The stochastic picture needs some frames to settle; the others are whole from the first one on.
-    const bool stochastic = options.method.empty() || options.method == "stochastic";
-    options.frames = arguments.frames > 0 ? arguments.frames : (stochastic ? kSettledFrames : 1);
+    // Sampled pictures need some frames to settle; these are whole from the first one on.
+    const bool whole =
+        options.method == "all-lights" || options.method == "split" || options.method == "true";
+    options.frames = arguments.frames > 0 ? arguments.frames : (whole ? 1 : kSettledFrames);
     options.keepTargets = !arguments.dumpFolder.empty();
     return std::nullopt;
 }
@@ -205,7 +206,8 @@ Command addRenderCommand(CLI::App& app) {
     render->add_option("--size", a.size, "in pixels")->type_name("WxH")->capture_default_str();
     render
         ->add_option("--frames", a.frames,
-                     fmt::format("frames to accumulate (default: {} for stochastic, else 1)", kSettledFrames))
+                     fmt::format("frames to accumulate (default: 1 for all-lights, split and true, else {})",
+                                 kSettledFrames))
         ->check(CLI::Range(1, 1000000).description(""))
         ->type_name("N");
     render->add_option("--seed", a.options.seed, "of the random numbers; same seed, same bytes")

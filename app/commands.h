@@ -18,6 +18,9 @@ Command addRenderCommand(CLI::App& app);
 // kilolux probe SCENE --pixel X,Y: everything about one pixel.
 Command addProbeCommand(CLI::App& app);
 
+// kilolux bench SCENES -o FOLDER: speed against error.
+Command addBenchCommand(CLI::App& app);
+
 // kilolux edit [SCENE]: the window, or a list of edits.
 Command addEditCommand(CLI::App& app);
 

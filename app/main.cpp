@@ -75,6 +75,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     app.add_option("SCENE", scene, "a .gltf or .glb file to open in the window");
     const Command render = addRenderCommand(app);
     const Command probe = addProbeCommand(app);
+    const Command bench = addBenchCommand(app);
     const Command edit = addEditCommand(app);
     try {
         app.parse(argc, argv);
@@ -93,6 +94,7 @@ ExitCode runCommandLine(int argc, char** argv) {
     }
     if (app.got_subcommand("render")) return render();
     if (app.got_subcommand("probe")) return probe();
+    if (app.got_subcommand("bench")) return bench();
     if (app.got_subcommand("edit")) return edit();
     if (!scene.empty() && !isSceneName(scene)) {
         printError(unexpectedArgument(app, scene, helpHint(app)));
