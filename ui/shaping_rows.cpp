@@ -43,8 +43,7 @@ void drawWordRow(Desk& desk, const LightField& row) {
     const CommonValue value = valueOf(desk, row.field);
     const std::string& now = std::get<std::string>(value.value);
     ImGui::SetNextItemWidth(rowLabel(desk, row.label, row.help));
-    if (!ImGui::BeginCombo(fmt::format("##{}", row.field).c_str(),
-                           value.mixed ? "mixed" : sentence(now).c_str()))
+    if (!beginCombo(fmt::format("##{}", row.field).c_str(), value.mixed ? "mixed" : sentence(now).c_str()))
         return mark(desk, row.field);
     std::string chosen;
     for (const char* word : findLightField(row.field)->words) {
@@ -87,7 +86,7 @@ std::optional<std::string> fileCombo(Desk& desk, const std::string& name, const 
     const std::string& now = std::get<std::string>(value.value);
     ImGui::SetNextItemWidth(widthPx);
     const std::string shown = value.mixed ? "mixed" : now.empty() ? "none" : readableUri(now);
-    const bool open = ImGui::BeginCombo(("##" + name).c_str(), shown.c_str());
+    const bool open = beginCombo(("##" + name).c_str(), shown.c_str());
     if (!open) {
         mark(desk, name);
         if (!now.empty() && !value.mixed) tooltip(now.size() < 200 ? now.c_str() : shown.c_str());

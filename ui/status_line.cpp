@@ -34,7 +34,7 @@ void drawFileState(Desk& desk) {
     }
     const std::string name = desk.session->path().filename().string();
     ImGui::TextUnformatted(name.c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", desk.session->path().string().c_str());
+    tooltip(desk.session->path().string().c_str());
     if (desk.session->hasUnsavedChanges()) {
         ImGui::SameLine(0, px(desk, 4));
         ImGui::TextColored(ImColor(theme::kAccent), "edited");
@@ -76,8 +76,8 @@ void drawStatusLine(Desk& desk) {
         if (start > ImGui::GetCursorPosX()) {
             ImGui::SameLine(start);
             ImGui::TextDisabled("%s", text.c_str());
-            if (!desk.shown->statistics.historyReset.empty() && ImGui::IsItemHovered())
-                ImGui::SetTooltip("History last began anew: %s", desk.shown->statistics.historyReset.c_str());
+            const std::string& why = desk.shown->statistics.historyReset;
+            if (!why.empty()) tooltip(("History last began anew: " + why).c_str());
         } else {
             ImGui::NewLine();
         }

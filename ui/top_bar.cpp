@@ -79,7 +79,8 @@ void drawExposure(Desk& desk) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(px(desk, 72));
     float ev = float(desk.exposureEv100);
-    if (ImGui::DragFloat("##exposure", &ev, 0.02f, -30.0f, 40.0f, "%.2f")) setExposure(desk, double(ev));
+    if (ImGui::DragFloat("##exposure", &ev, 0.02f, -30.0f, 40.0f, "%.2f", ImGuiSliderFlags_AlwaysClamp))
+        setExposure(desk, double(ev));
     mark(desk, "top.exposure");
     if (ImGui::IsItemDeactivated()) endDrag(desk);
     tooltip("Exposure, EV100: drag, or double-click to type");

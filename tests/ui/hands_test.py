@@ -201,6 +201,8 @@ class Keys(LightCase):
         window.key("Return")
         window.settle()
         self.assertLessEqual(abs(window.state()["exposure"]), 40.0)
+        self.assertEqual(window.state()["notices"], [], "a number out of range is brought into it")
+        self.step("z", what="undo")
         window.key("o", hold=[CTRL])
         window.wait(lambda s: s["question"] == "open", "the folder list")
         window.type("no such file?.glb")

@@ -11,7 +11,7 @@ import os
 import light_scenes
 import window_case
 from window_case import WindowCase
-from window_driver import RIGHT
+from window_driver import RIGHT, WHEEL_DOWN, WHEEL_UP
 
 CTRL, SHIFT = "Control_L", "Shift_L"
 
@@ -62,8 +62,18 @@ class LightCase(WindowCase):
         return document["extensions"]["KHR_lights_punctual"]["lights"][
             node["extensions"]["KHR_lights_punctual"]["light"]], node.get("extras", {}).get("kilolux", {})
 
+    def reach(self, field):
+        """Turns the wheel over the properties until a field of them can be seen."""
+        for _ in range(30):
+            x, y, w, h = self.window.wait_place(field)
+            if 76 < y and y + h < self.size[1] - 30:
+                return
+            self.window.click((x + w / 2, self.size[1] / 2), button=WHEEL_DOWN if y > 76 else WHEEL_UP)
+        self.fail(f"{field} cannot be reached")
+
     def enter(self, field, text):
         """Types into a field of the properties and ends with Enter."""
+        self.reach(field)
         self.window.click(field)
         self.window.wait(lambda s: s["properties"].get("editing") == field, f"{field} to take text")
         self.window.settle()
