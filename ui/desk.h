@@ -21,6 +21,8 @@ struct FileTasks; // file_tasks.h
 // What panels remember between frames; each is defined in its panel's files and made by it on first use.
 struct LightListState;
 struct PropertiesState;
+struct HandleState;
+struct ProfileBrowserState;
 struct GizmoState;
 struct CameraMenuState;
 struct ViewPanelState;
@@ -115,6 +117,8 @@ struct Desk {
     std::shared_ptr<LightListState> lightList;
     std::shared_ptr<PropertiesState> properties;
     std::shared_ptr<GizmoState> gizmo;
+    std::shared_ptr<HandleState> handles;
+    std::shared_ptr<ProfileBrowserState> profileBrowser;
     std::shared_ptr<CameraMenuState> cameraMenu;
     std::shared_ptr<ViewPanelState> viewPanel;
     std::shared_ptr<ProbeState> probe;

@@ -99,6 +99,7 @@ void drawOverlays(Desk& desk, const ViewportRect& rect) {
         drawLightOutlines(desk, canvas);
         drawProbeOverlay(desk, canvas);
         drawGizmos(desk, canvas);
+        drawLightHandles(desk, canvas);
         pickLights(desk, canvas);
     }
     canvas.PopClipRect();
@@ -160,6 +161,7 @@ void drawLayout(Desk& desk, const Layout& layout) {
     drawNotices(desk, layout.viewport);
     drawActivities(desk, layout.viewport);
     drawKeysHelp(desk);
+    drawProfileBrowser(desk);
     drawFileDialogs(desk);
 }
 

@@ -1,4 +1,5 @@
 // The keys of keys.h for tools and lights.
+#include "ui/handle_overlay.h"
 #include "ui/keys.h"
 #include "ui/light_commands.h"
 #include "ui/light_list_state.h"
@@ -27,7 +28,8 @@ void selectAll(Desk& desk) {
 // The innermost thing that can be given up.
 void cancel(Desk& desk) {
     GizmoState& state = viewportTools(desk);
-    if (cancelGizmoDrag(desk) || cancelPropertyDrag(desk) || cancelProbePick(desk)) return;
+    if (cancelGizmoDrag(desk) || cancelHandleDrag(desk) || cancelPropertyDrag(desk) || cancelProbePick(desk))
+        return;
     if (state.pressPx || state.placing || state.addMenuPx) {
         state.pressPx.reset();
         state.placing.reset();

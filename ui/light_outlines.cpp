@@ -2,6 +2,7 @@
 // the cone and the doors of selected ones faintly.
 #include "ui/light_place.h"
 #include "ui/panels.h"
+#include "ui/profile_facts.h"
 #include "ui/theme.h"
 #include "ui/viewport_tools.h"
 #include "ui/widgets.h"
@@ -19,6 +20,7 @@ constexpr ImU32 kMuted = IM_COL32(110, 110, 110, 255);
 constexpr ImU32 kHalo = IM_COL32(0, 0, 0, 110); // so that thin lines are seen on bright walls as well
 constexpr std::size_t kMostFine = 1500;         // outlines in the picture; beyond, marks are dots
 constexpr std::size_t kMostShapings = 64;       // of selected lights
+constexpr std::size_t kMostWebs = 8;
 
 ImVec2 im(glm::vec2 px) {
     return {px.x, px.y};
@@ -90,19 +92,41 @@ void drawDoors(ImDrawList& canvas, const Viewport& viewport, const LightDef& def
     }
 }
 
+// The profile as a web about the light, as far out as it is strong.
+void drawWeb(ImDrawList& canvas, const Viewport& viewport, const LightDef& def, const glm::dvec3& center,
+             const glm::dmat3& axes, double lengthM) {
+    const ScreenMap map(viewport);
+    for (const std::vector<glm::dvec3>& line : webOf(*def.ies)) {
+        ScreenMap::Point last{};
+        for (const glm::dvec3& point : line) {
+            const ScreenMap::Point at = map.project(center + lengthM * (axes * point));
+            if (at.inFront && last.inFront)
+                canvas.AddLine(im(glm::vec2(last.px)), im(glm::vec2(at.px)),
+                               (theme::kAccent & 0x00ffffffu) | 0x60000000u);
+            last = at;
+        }
+    }
+}
+
 void drawShapings(const Desk& desk, ImDrawList& canvas) {
     const Scene& scene = desk.session->scene();
     std::size_t drawn = 0;
     for (const std::uint64_t id : desk.selection) {
         const LightDef& def = defOf(scene, id);
-        if (def.type != LightType::Spot && def.type != LightType::Rect) continue;
+        const bool hasWeb = def.ies && def.iesUse != IesUse::None && def.type != LightType::Directional;
+        if (def.type != LightType::Spot && def.type != LightType::Rect && !hasWeb) continue;
         if (++drawn > kMostShapings) return;
         const glm::dvec3 center = positionOf(scene, id);
         const glm::dmat3 axes = axesOf(scene, id);
+        if (hasWeb && drawn <= kMostWebs) {
+            drawWeb(canvas, desk.viewport, def, center, axes,
+                    110.0 * desk.uiScale * desk.viewport.metresPerPixel(center));
+        }
         if (def.type == LightType::Rect) {
             drawDoors(canvas, desk.viewport, def, center, axes);
             continue;
         }
+        if (def.type != LightType::Spot) continue;
         // As long as its reach, but not across the whole picture.
         const double longestM = 160.0 * desk.uiScale * desk.viewport.metresPerPixel(center);
         drawCone(canvas, desk.viewport, def, center, axes, std::min(def.rangeM.value_or(longestM), longestM));

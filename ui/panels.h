@@ -19,7 +19,8 @@ void drawStatusLine(Desk& desk);
 void drawLightList(Desk& desk);
 
 // --- on top of everything
-void drawKeysHelp(Desk& desk);                             // every key (F1)
+void drawKeysHelp(Desk& desk); // every key (F1)
+void drawProfileBrowser(Desk& desk);
 void drawNotices(Desk& desk, const ViewportRect& rect);    // what the program says
 void drawActivities(Desk& desk, const ViewportRect& rect); // what takes long, with the way out of it
 
@@ -32,6 +33,7 @@ void drawStatisticsPanel(Desk& desk); // passes, memory, features
 // --- on the picture, in this order. They set Desk::pointerTaken while they hold the pointer.
 void drawLightOutlines(Desk& desk, ImDrawList& canvas);
 void drawGizmos(Desk& desk, ImDrawList& canvas);
+void drawLightHandles(Desk& desk, ImDrawList& canvas); // sizes, cones, range, doors of one light
 void drawProbeOverlay(Desk& desk, ImDrawList& canvas);
 void drawReferenceOverlay(Desk& desk, ImDrawList& canvas); // stored image, split view
 void pickLights(Desk& desk, ImDrawList& canvas); // click and marquee; after all who may take the pointer

@@ -6,6 +6,7 @@
 #include "ui/light_place.h"
 #include "ui/panels.h"
 #include "ui/property_rows.h"
+#include "ui/shaping_rows.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -163,6 +164,7 @@ void drawVisibility(Desk& desk, PropertiesState& state) {
 void drawSections(Desk& desk, PropertiesState& state) {
     if (beginSection(desk, "Light")) {
         drawType(desk, state);
+        drawPresetRow(desk);
         drawTable(desk, state, LightSection::Light);
         drawGroupChoice(desk, state);
     }
@@ -222,6 +224,7 @@ void drawProperties(Desk& desk) {
             "No light is selected. Click one in the picture or in the list; Shift+A over the picture "
             "adds one; F1 shows all keys.");
         ImGui::PopTextWrapPos();
+        if (beginSection(desk, "Dome and fill")) drawDomeRows(desk);
         return;
     }
     drawName(desk, state);

@@ -137,26 +137,34 @@ void drawTriple(Desk& desk, const char* label, const char* help, bool isAngle) {
     }
 }
 
-// A number of a group, by its field in the table of edits.
-void drawGroupNumber(Desk& desk, std::uint64_t group, const char* label, const char* name, Quantity quantity,
-                     double step, const char* help) {
+// What stands by itself: a group, or the scene. `id` 0 is the scene.
+struct Owner {
+    EditTarget target;
+    std::uint64_t id;
+    const char* word; // before the names of steps
+    std::string prefix() const { return target == EditTarget::Group ? "group." : "scene."; }
+};
+
+// A number of it, by its field in the table of edits.
+void drawOwnNumber(Desk& desk, const Owner& owner, const char* label, const char* name, Quantity quantity,
+                   double step, const char* help) {
     PropertiesState& state = propertiesOf(desk);
-    const EditField& field = *findEditField(EditTarget::Group, name);
-    const CommonValue value{field.get(desk.session->scene(), group), false};
+    const EditField& field = *findEditField(owner.target, name);
+    const CommonValue value{field.get(desk.session->scene(), owner.id), false};
     const float width = rowLabel(desk, label, help);
-    const FieldEvent event = valueField(desk, std::string("group.") + name,
-                                        textOf(value, quantity, LightUnit::Candela), width, help);
+    const FieldEvent event =
+        valueField(desk, owner.prefix() + name, textOf(value, quantity, LightUnit::Candela), width, help);
     if (event.kind == FieldEvent::Kind::None) return;
     const bool dragged = event.kind == FieldEvent::Kind::Dragged;
     const Result<ValueEntry> entry =
         dragged ? Result<ValueEntry>(entryOf(event.pixels, step)) : parseEntry(event.text, quantity);
     if (!entry) return tellRefused(desk, label, entry.error());
     const double before =
-        std::get<double>(field.get(dragged ? state.dragStart : desk.session->scene(), group));
+        std::get<double>(field.get(dragged ? state.dragStart : desk.session->scene(), owner.id));
     double after = changed(before, entry.value());
     if (dragged) after = std::clamp(after, field.min, field.max);
-    const Result<Edits> edits = setField(desk.session->scene(), EditTarget::Group, group, field, after);
-    if (applyEdits(desk, edits, fmt::format("Group {}", withinSentence(label)),
+    const Result<Edits> edits = setField(desk.session->scene(), owner.target, owner.id, field, after);
+    if (applyEdits(desk, edits, fmt::format("{} {}", owner.word, withinSentence(label)),
                    dragged ? dragKey(state) : "") &&
         dragged && !edits.value().empty())
         noteDragged(desk);
@@ -238,6 +246,21 @@ void drawNumberRow(Desk& desk, const LightField& row) {
         noteDragged(desk);
 }
 
+// The same for a colour.
+void drawOwnColor(Desk& desk, const Owner& owner, const char* label, const char* name, const char* help) {
+    PropertiesState& state = propertiesOf(desk);
+    bool ended = false;
+    const EditField& field = *findEditField(owner.target, name);
+    const CommonValue value{field.get(desk.session->scene(), owner.id), false};
+    const float width = rowLabel(desk, label, help);
+    const std::string key = fmt::format("{}{} {}", owner.prefix(), name, state.drags);
+    if (const auto color = colorField(desk, owner.prefix() + name, value, width, ended)) {
+        applyEdits(desk, setField(desk.session->scene(), owner.target, owner.id, field, *color),
+                   fmt::format("{} {}", owner.word, withinSentence(label)), key);
+    }
+    if (ended && desk.session->history().wouldMerge(key)) endDrag(desk), ++state.drags;
+}
+
 } // namespace
 
 float rowLabel(Desk& desk, const char* label, const char* help) {
@@ -297,23 +320,32 @@ void drawTintRow(Desk& desk) {
 }
 
 void drawGroupRows(Desk& desk, std::uint64_t group) {
-    PropertiesState& state = propertiesOf(desk);
-    drawGroupNumber(desk, group, "Master", "intensity", Quantity::Number, 0.005,
-                    "A factor on all its lights");
-    drawGroupNumber(desk, group, "Exposure", "exposureEv", Quantity::Exposure, 0.01,
-                    "A second factor, in stops");
-    bool ended = false;
-    const CommonValue value{findEditField(EditTarget::Group, "tint")->get(desk.session->scene(), group),
-                            false};
-    const float width = rowLabel(desk, "Tint", "On all its lights");
-    if (const auto color = colorField(desk, "group.tint", value, width, ended)) {
-        applyEdits(desk, setField(desk.session->scene(), EditTarget::Group, group, "tint", *color),
-                   "Group tint", fmt::format("tint {}", state.drags));
-    }
-    if (ended && desk.session->history().wouldMerge(fmt::format("tint {}", state.drags)))
-        endDrag(desk), ++state.drags;
+    const Owner owner{EditTarget::Group, group, "Group"};
+    drawOwnNumber(desk, owner, "Master", "intensity", Quantity::Number, 0.005, "A factor on all its lights");
+    drawOwnNumber(desk, owner, "Exposure", "exposureEv", Quantity::Exposure, 0.01,
+                  "A second factor, in stops");
+    drawOwnColor(desk, owner, "Tint", "tint", "On all its lights");
     if (textButton(desk, "group.select", "Select its lights"))
         select(desk, membersOf(desk.session->scene(), group));
+}
+
+void drawDomeRows(Desk& desk) {
+    const Owner owner{EditTarget::Scene, 0, "Dome"};
+    const EditField& image = *findEditField(EditTarget::Scene, "domeImage");
+    const CommonValue uri{image.get(desk.session->scene(), 0), false};
+    const float width =
+        rowLabel(desk, "Picture", "Latitude-longitude, its middle towards -Z; none: one colour");
+    if (const auto chosen = fileCombo(desk, "scene.domeImage", uri, false, width))
+        applyEdits(desk, setField(desk.session->scene(), EditTarget::Scene, 0, image, *chosen),
+                   "Dome picture");
+    drawOwnNumber(desk, owner, "Dome  nit", "domeNit", Quantity::Number, 1.0,
+                  "Luminance all around, or of a pixel of value 1; 0 is without");
+    drawOwnColor(desk, owner, "Colour", "domeColor", "On the picture as well");
+    drawOwnNumber(desk, owner, "Turn", "domeRotationRad", Quantity::Angle, glm::radians(0.5), "About +Y");
+    const Owner fill{EditTarget::Scene, 0, "Fill"};
+    drawOwnNumber(desk, fill, "Fill  nit", "fillNit", Quantity::Number, 0.1,
+                  "A plain ambient light without shadows, for context only");
+    drawOwnColor(desk, fill, "Fill colour", "fillColor", "Of the ambient light");
 }
 
 } // namespace kilolux

@@ -15,5 +15,6 @@ void drawFieldRow(Desk& desk, const LightField& field);
 void drawPlaceRows(Desk& desk); // position and rotation
 void drawTintRow(Desk& desk);
 void drawGroupRows(Desk& desk, std::uint64_t group); // its masters
+void drawDomeRows(Desk& desk);                       // of the scene, and its fill
 
 } // namespace kilolux

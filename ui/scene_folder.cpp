@@ -20,11 +20,11 @@ std::string lowered(std::string text) {
 
 } // namespace
 
-std::vector<std::string> filesBelow(const fs::path& folder, std::span<const std::string_view> endings) {
-    std::vector<std::string> uris;
+std::vector<fs::path> pathsBelow(const fs::path& folder, std::span<const std::string_view> endings) {
+    std::vector<fs::path> paths;
     std::error_code error;
     fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
-    for (; !error && at != end && uris.size() < kMostFiles; at.increment(error)) {
+    for (; !error && at != end && paths.size() < kMostFiles; at.increment(error)) {
         if (at.depth() >= kMostDepth || at->path().filename().string().starts_with('.'))
             at.disable_recursion_pending();
         std::error_code ignored;
@@ -32,9 +32,16 @@ std::vector<std::string> filesBelow(const fs::path& folder, std::span<const std:
         if (std::find(endings.begin(), endings.end(), ending) == endings.end() ||
             !at->is_regular_file(ignored))
             continue;
-        uris.push_back(uriOf(at->path().lexically_relative(folder)));
+        paths.push_back(at->path());
     }
-    std::sort(uris.begin(), uris.end());
+    std::sort(paths.begin(), paths.end());
+    return paths;
+}
+
+std::vector<std::string> filesBelow(const fs::path& folder, std::span<const std::string_view> endings) {
+    std::vector<std::string> uris;
+    for (const fs::path& path : pathsBelow(folder, endings))
+        uris.push_back(uriOf(path.lexically_relative(folder)));
     return uris;
 }
 

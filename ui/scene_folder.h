@@ -13,6 +13,9 @@ inline constexpr std::string_view kProfileEndings[] = {".ies"};
 inline constexpr std::string_view kPictureEndings[] = {".png", ".jpg", ".jpeg", ".exr", ".hdr"};
 
 // Sorted; folders of folders to a depth of four, at most 500 files. Errors of single folders are passed over.
+std::vector<std::filesystem::path> pathsBelow(const std::filesystem::path& folder,
+                                              std::span<const std::string_view> endings);
+// The same as URIs relative to the folder.
 std::vector<std::string> filesBelow(const std::filesystem::path& folder,
                                     std::span<const std::string_view> endings);
 

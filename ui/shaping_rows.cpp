@@ -2,6 +2,8 @@
 #include "ui/shaping_rows.h"
 
 #include "ui/light_actions.h"
+#include "ui/luminaires.h"
+#include "ui/profile_browser.h"
 #include "ui/property_rows.h"
 #include "ui/scene_folder.h"
 #include "ui/theme.h"
@@ -115,8 +117,33 @@ std::optional<std::string> fileCombo(Desk& desk, const std::string& name, const 
 void drawFileRow(Desk& desk, const LightField& row) {
     const bool isProfile = findLightField(row.field)->kind == FieldKind::Profile;
     const CommonValue value = valueOf(desk, row.field);
-    const float width = rowLabel(desk, row.label, row.help);
-    if (const auto chosen = fileCombo(desk, row.field, value, isProfile, width)) setAll(desk, row, *chosen);
+    const float width = rowLabel(desk, row.label, row.help), side = ImGui::GetFrameHeight();
+    const float combo = isProfile ? width - side - px(desk, 4) : width;
+    if (const auto chosen = fileCombo(desk, row.field, value, isProfile, combo)) setAll(desk, row, *chosen);
+    if (!isProfile) return;
+    ImGui::SameLine(0, px(desk, 4));
+    if (iconButton(desk, "profiles.browse", theme::kOpen, "All profiles, with their shapes"))
+        openProfileBrowser(desk);
+}
+
+void drawPresetRow(Desk& desk) {
+    ImGui::SetNextItemWidth(rowLabel(desk, "Preset", "Lumens, temperature, size and profile of a luminaire"));
+    if (!ImGui::BeginCombo("##preset", "Choose")) return mark(desk, "preset");
+    const Luminaire* chosen = nullptr;
+    for (const Luminaire& each : luminaires()) {
+        if (ImGui::Selectable(each.name)) chosen = &each;
+        mark(desk, std::string("preset.") + each.name);
+    }
+    ImGui::EndCombo();
+    mark(desk, "preset");
+    if (!chosen) return;
+    Result<std::string> uri = std::string();
+    if (*chosen->profile)
+        uri = bringProfile(shippedProfiles() / chosen->profile, desk.session->path().parent_path());
+    if (!uri) return notify(desk, Notice::Kind::Error, uri.error());
+    applyEdits(
+        desk, editsForLuminaire(desk.session->scene(), desk.selection, *chosen, uri.value(), sharingOf(desk)),
+        fmt::format("{} for {}", chosen->name, countedLights(desk.selection.size())));
 }
 
 } // namespace kilolux

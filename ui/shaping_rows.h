@@ -9,6 +9,7 @@ void drawFlagRow(Desk& desk, const LightField& row);
 void drawWordRow(Desk& desk, const LightField& row);
 void drawChannelsRow(Desk& desk, const LightField& row);
 void drawFileRow(Desk& desk, const LightField& row);
+void drawPresetRow(Desk& desk); // named luminaires
 
 // Eight buttons, one a channel, named '<name>.1' and so on for tests; the bits after one was pressed.
 std::optional<std::uint64_t> channelButtons(Desk& desk, const std::string& name, const CommonValue& value,

@@ -2,6 +2,7 @@
 #include "ui/state_file.h"
 
 #include "ui/file_tasks.h"
+#include "ui/handle_overlay.h"
 #include "ui/panels.h"
 
 #include <cstdio>
@@ -86,6 +87,7 @@ std::string stateText(const Desk& desk, const WindowTimes& times) {
         {"lightList", lightListState(desk)},
         {"properties", propertiesState(desk)},
         {"gizmo", gizmoState(desk)},
+        {"handles", handleOverlayState(desk)},
         {"viewPanel", viewPanelState(desk)},
     };
     return state.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -4,6 +4,8 @@
 #include "renderer/document/gltf_light_reader.h"
 #include "renderer/document/light_properties.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <map>
 
 namespace kilolux::gltf {
@@ -118,10 +120,32 @@ void LightImporter::importNode(int node) {
     context_.scene.lights.push_back(light);
 }
 
+// Blender's exporter has three modes since 3.6 and writes none of them down: candela and lux ('standard', its
+// default), those without 683 lm/W ('unitless'), and its own watts ('raw'). Older ones knew watts alone. The
+// numbers are taken as glTF means them; what is sure to be watts is told.
+void warnOfWatts(ImportContext& context) {
+    const Json* asset = findObject(context.json, "asset");
+    const std::string generator = asset ? asset->value("generator", Json()).dump() : "";
+    int major = 0, minor = 0;
+    const bool isBlender =
+        std::sscanf(generator.c_str(), "\"Khronos glTF Blender I/O v%d.%d", &major, &minor) == 2;
+    if (!isBlender || major > 3 || (major == 3 && minor >= 6)) return;
+    const auto& lights = context.scene.lights.read();
+    const auto isWatts = [&](const LightNode& light) {
+        return context.scene.lightDefs.read()[static_cast<std::size_t>(light.def)].type !=
+               LightType::Directional;
+    };
+    if (std::none_of(lights.begin(), lights.end(), isWatts)) return;
+    context.warn("/asset/generator",
+                 "expected lights in candela, this version of Blender's exporter writes watts; 54.35 times "
+                 "the number is the candela of a point");
+}
+
 void LightImporter::run() {
     for (std::size_t i = 0; i < context_.scene.nodes.size(); ++i) {
         if (context_.scene.nodes[i].visible) importNode(static_cast<int>(i));
     }
+    warnOfWatts(context_);
 }
 
 } // namespace

@@ -75,6 +75,26 @@ def every_type(path):
     return _write(path, lights, nodes, extras={"groups": [{"name": "Key"}], "exposureEv100": 3})
 
 
+def shaped(path):
+    """Lights 1 to 5 at one place, each with every handle that its type has."""
+    place = [0, 0.9, 0]
+    lights = [
+        {"type": "point", "intensity": 40, "range": 1.0},
+        {"type": "spot", "intensity": 80, "range": 1.5, "spot": {"innerConeAngle": 0.3, "outerConeAngle": 0.6}},
+        {"type": "point", "intensity": 20},
+        {"type": "point", "intensity": 20},
+        {"type": "point", "intensity": 20},
+    ]
+    names = ["Bulb", "Spot", "Tube", "Window", "Ring"]
+    nodes = [_node(i, name, place) for i, name in enumerate(names)]
+    own = [{"radiusM": 0.1}, {"radiusM": 0.05}, {"type": "tube", "radiusM": 0.05, "lengthM": 0.8},
+           {"type": "rect", "widthM": 0.8, "heightM": 0.6, "barnDoorAngleRad": 0.7, "barnDoorLengthM": 0.3},
+           {"type": "disk", "widthM": 0.5}]
+    for node, properties in zip(nodes, own):
+        node["extras"] = {"kilolux": properties}
+    return _write(path, lights, nodes, extras={"exposureEv100": 3})
+
+
 def crowd(path, count):
     """Lights of three types in a block before the camera; many share a definition."""
     lights = [{"type": "point", "intensity": 1 + i % 7, "range": 0.4, "color": [1, 0.5 + i % 6 / 10, 0.4]}

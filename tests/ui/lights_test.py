@@ -14,6 +14,7 @@ from window_case import WindowCase
 from window_driver import RIGHT, WHEEL_DOWN, WHEEL_UP
 
 CTRL, SHIFT = "Control_L", "Shift_L"
+SECTIONS = ("Light", "Place", "Shape", "Shaping", "Profile", "Light function", "Colour", "Shadow", "Visibility")
 
 
 def read(path):
@@ -81,6 +82,25 @@ class LightCase(WindowCase):
         self.window.type(text)
         self.window.key("Return")
         self.window.wait(lambda s: s["properties"].get("editing") == "", f"{field} to be left")
+
+    def reveal(self, field):
+        """Folds sections from above until the field stands within the window; those that were folded."""
+        folded = []
+        for section in SECTIONS:
+            self.window.settle()
+            places = self.window.state()["places"]
+            if places[field][1] + places[field][3] <= self.size[1] - 30:
+                break
+            if f"section.{section}" in places:
+                self.window.click(f"section.{section}")
+                folded.append(section)
+        self.window.settle()
+        return folded
+
+    def unfold(self, folded):
+        for section in reversed(folded):
+            self.window.click(f"section.{section}")
+            self.window.settle()
 
     def handles(self):
         self.window.settle()
@@ -228,16 +248,13 @@ class Lights(LightCase):
                 if field not in window.state()["places"]:
                     self.fail(f"light {light} has no field {field}")
                 window.settle()
-                place = window.state()["places"][field]
-                if place[1] + place[3] > self.size[1] - 30:  # below the fold: shut what stands above
-                    for section in ("Light", "Place"):
-                        window.click(f"section.{section}")
-                    window.settle()
+                folded = self.reveal(field)
                 before = window.state()["notices"]
                 self.enter(field, f"{field}!")
                 state = window.wait(lambda s: any(f"{field}!" in text for text in s["notices"]), f"word of {field}")
                 self.assertEqual(len(set(state["notices"]) - set(before)), 1, field)
                 self.assertEqual(state["document"]["version"], 1, field)
+                self.unfold(folded)
         self.assertFalse(window.state()["document"]["unsaved"])
 
     def test_mixed_values_typing_sets_dragging_offsets(self):
@@ -273,8 +290,7 @@ class Lights(LightCase):
         self.step("h", hold=[], what="muting")
         self.pick(3, 4)
         self.step("g", what="grouping")
-        for section in ("Colour", "Shaping", "Place", "Light"):  # the group's numbers are below the fold
-            window.click(f"section.{section}")
+        self.reveal("group.exposureEv")
         self.enter("group.exposureEv", "-1")
         window.key("c", hold=[CTRL])
         self.step("v", what="pasting")

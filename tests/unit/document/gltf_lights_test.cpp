@@ -162,6 +162,23 @@ TEST(GltfLights, BrokenValuesAreReplacedWithAWarningThatNamesThem) {
     }
 }
 
+// Numbers stay as they are, since the exporter's mode stands nowhere; what can only be watts is told.
+TEST(GltfLights, WattsOfOlderBlenderExportersAreTold) {
+    for (const auto& [version, isWatts] :
+         {std::pair{"v1.2.75", true}, {"v3.5.30", true}, {"v3.6.27", false}, {"v4.0.44", false}}) {
+        GltfBuilder builder;
+        builder.json["asset"]["generator"] = std::string("Khronos glTF Blender I/O ") + version;
+        builder.addPunctualLight({{"type", "point"}, {"intensity", 54.35}});
+        const Scene scene = builder.import();
+        EXPECT_EQ(defOf(scene).intensity, 54.35);
+        EXPECT_EQ(hasWarning(scene, "/asset/generator"), isWatts) << version;
+    }
+    GltfBuilder sun;
+    sun.json["asset"]["generator"] = "Khronos glTF Blender I/O v1.2.75";
+    sun.addPunctualLight({{"type", "directional"}});
+    EXPECT_FALSE(hasWarning(sun.import(), "/asset/generator"));
+}
+
 TEST(GltfLights, OneNodeCarriesOneLight) {
     GltfBuilder builder;
     builder.addPunctualLight({{"type", "point"}});

@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""What shapes light, by hand in the real window: shaping_test.py PROGRAM [unittest arguments]
+
+Every handle is dragged and its value looked up in the saved file; profiles come from the browser, presets, masks and
+channels from the rows.
+"""
+import os
+
+import light_scenes
+import window_case
+from lights_test import CTRL, LightCase
+
+# Light, then its handles in files' words.
+HANDLES = {
+    1: ("Bulb", ["radiusM", "rangeM"]),
+    2: ("Spot", ["radiusM", "outerConeRad", "innerConeRad", "rangeM"]),
+    3: ("Tube", ["lengthM", "radiusM"]),
+    4: ("Window", ["widthM", "heightM"] + [f"barnDoor{side}{what}" for side in ("Left", "Right", "Top", "Bottom")
+                                         for what in ("LengthM", "AngleRad")]),
+    5: ("Ring", ["widthM"]),
+}
+
+
+class Shaping(LightCase):
+    def open(self, make=light_scenes.shaped, *arguments):
+        return super().open(make, *arguments)
+
+    def dots(self):
+        self.window.settle()
+        return self.window.state()["handles"]["dots"]
+
+    def begin(self, light):
+        """Selects a light; its place in the picture."""
+        self.pick(light)
+        self.tool("w", 1)
+        center = self.handles()["center"]
+        self.tool("q", 0)
+        return center
+
+    def goal(self, field, start, center):
+        """Off the light, or for an angle aside of the way there."""
+        away = [start[i] - center[i] for i in range(2)]
+        length = max(1.0, (away[0] ** 2 + away[1] ** 2) ** 0.5)
+        away = [28 * part / length for part in away]
+        if field.endswith("AngleRad") or field.endswith("ConeRad"):
+            return [start[0] - away[1] + 8, start[1] + away[0] + 8]
+        return [start[0] + away[0], start[1] + away[1]]
+
+    def value(self, name, field):
+        """Of the saved file."""
+        definition, extras = self.light(name)
+        pair = "barnDoorAngleRad" if field.endswith("AngleRad") else "barnDoorLengthM"
+        words = {"rangeM": definition.get("range"), "outerConeRad": definition.get("spot", {}).get("outerConeAngle"),
+                 "innerConeRad": definition.get("spot", {}).get("innerConeAngle")}
+        if field in extras:
+            return extras[field]
+        if field.startswith("barnDoor") and pair in extras:
+            return extras[pair]
+        return words.get(field)
+
+    def drag_dot(self, field, center, **how):
+        start = self.dots()[field]
+        before = self.window.state()["document"]["version"]
+        self.window.drag(start, self.goal(field, start, center), **how)
+        self.window.wait(lambda s: s["document"]["version"] != before, f"{field} to be dragged")
+        return start
+
+    def test_every_handle_is_dragged_into_the_file(self):
+        window = self.open()
+        for light, (name, fields) in HANDLES.items():
+            center = self.begin(light)
+            self.assertEqual(sorted(self.dots()), sorted(fields), name)
+            for field in fields:
+                before = self.value(name, field)
+                self.drag_dot(field, center, release=False)
+                label = window.wait(lambda s: s["handles"].get("label"), f"{field} to say its value")["handles"]["label"]
+                window.screen.button(1, False)
+                window.wait(lambda s: not s["handles"].get("label"), f"{field} to be let go")
+                after = self.value(name, field)
+                self.assertGreater(abs(after - before), 0.005 * (before + 0.01), f"{name} {field}")
+                shown = float([word for word in label.split() if word[0].isdigit() or word[0] == "-"][0])
+                if field.endswith("Rad"):
+                    after *= 57.29577951308232
+                self.assertAlmostEqual(shown, after, delta=2e-3 * abs(after) + 1e-3, msg=f"{name} {field}: {label}")
+
+    def test_esc_restores_ctrl_snaps_and_a_drag_is_one_step(self):
+        window = self.open()
+        center = self.begin(4)
+        version = window.state()["document"]["version"]
+        start = self.drag_dot("widthM", center, release=False)
+        window.key("Escape")
+        window.wait(lambda s: s["document"]["undo"] == "", "the drag to be given up")
+        window.screen.button(1, False)
+        dot = self.dots()["widthM"]
+        self.assertLess(abs(dot[0] - start[0]) + abs(dot[1] - start[1]), 2.0)
+        self.assertNotEqual(window.state()["document"]["version"], version)
+        self.drag_dot("widthM", center, hold=[CTRL])
+        window.wait(lambda s: not s["handles"].get("label"), "the dot to be let go")
+        width = self.value("Window", "widthM")
+        self.assertAlmostEqual(width / 0.1, round(width / 0.1), delta=1e-6)
+        self.assertNotAlmostEqual(width, 0.8)
+        self.step("z", what="undo")
+        self.assertEqual(window.state()["document"]["undo"], "")
+        self.save()
+        with open(self.path, "rb") as file:
+            self.assertEqual(file.read(), self.original)
+
+    def test_a_profile_from_the_browser(self):
+        window = self.open()
+        self.pick(1)
+        for section in ("Place", "Shape", "Shaping"):
+            window.click(f"section.{section}")
+            window.settle()
+        window.click("profiles.browse")
+        window.wait_place("profiles.globe.ies")
+        window.settle()
+        window.click("profiles.globe.ies")
+        window.wait_place("profiles.plot")
+        window.settle()
+        window.click("profiles.use")
+        window.wait(lambda s: s["document"]["undo"].startswith("IES profile"), "the profile to be used")
+        document = self.save()
+        node = next(n for n in document["nodes"] if n["name"] == "Bulb")
+        self.assertIn("EXT_lights_ies", node["extensions"])
+        self.assertEqual(document["extensions"]["EXT_lights_ies"]["lights"][0]["uri"], "profiles/globe.ies")
+        self.assertTrue(os.path.exists(os.path.join(self.home, "profiles", "globe.ies")))
+
+    def test_a_preset_and_channels(self):
+        window = self.open()
+        self.pick(5)
+        window.click("preset")
+        window.wait_place("preset.LED bulb, 8.5 W")
+        window.settle()
+        window.click("preset.LED bulb, 8.5 W")
+        window.wait(lambda s: s["document"]["undo"].startswith("LED bulb"), "the preset")
+        definition, extras = self.light("Ring")
+        self.assertEqual((extras["intensity"], extras["unit"], extras["temperatureK"]), (806, "lm", 2700))
+        self.assertEqual(definition["type"], "point")
+        for section in ("Light", "Place", "Shape", "Shaping", "Profile", "Light function", "Colour", "Shadow"):
+            window.click(f"section.{section}")
+            window.settle()
+        window.click("channels.3")
+        window.wait(lambda s: s["document"]["undo"].startswith("Channels"), "the channel")
+        self.assertEqual(self.light("Ring")[1]["channels"], 5)
+
+
+if __name__ == "__main__":
+    window_case.main()
