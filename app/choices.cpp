@@ -130,4 +130,16 @@ Result<PictureSize> parsePictureSize(std::string_view text) {
     return size;
 }
 
+std::optional<Error> applyPictureArguments(std::string_view size, std::span<const std::string> sets,
+                                           RenderOptions& options) {
+    const Result<PictureSize> parsed = parsePictureSize(size);
+    if (!parsed) return Error{parsed.error()};
+    options.width = parsed.value().width;
+    options.height = parsed.value().height;
+    if (auto error = checkChoice("method", options.method, Renderer::methods())) return error;
+    for (const std::string& set : sets)
+        if (auto error = applySetting(options.settings, set)) return error;
+    return std::nullopt;
+}
+
 } // namespace kilolux

@@ -45,15 +45,9 @@ std::optional<glm::ivec2> parsePixel(std::string_view text) {
 Problem checkArguments(Arguments& a) {
     if (a.scene.empty())
         return Failure{ExitCode::BadInput, "SCENE is missing; try: kilolux probe SCENE.glb --pixel 480,270"};
-    const Result<PictureSize> size = parsePictureSize(a.size);
-    if (!size) return Failure{ExitCode::BadInput, size.error()};
     RenderOptions& options = a.options;
-    options.width = size.value().width;
-    options.height = size.value().height;
-    if (Problem p = badInput(checkChoice("method", options.method, Renderer::methods()))) return p;
+    if (Problem p = badInput(applyPictureArguments(a.size, a.sets, options))) return p;
     if (Problem p = badInput(checkChoice("view", options.view, Renderer::views()))) return p;
-    for (const std::string& set : a.sets)
-        if (Problem p = badInput(applySetting(options.settings, set))) return p;
     const std::optional<glm::ivec2> pixel = parsePixel(a.pixel);
     if (!pixel) {
         return Failure{ExitCode::BadInput,

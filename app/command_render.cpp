@@ -60,19 +60,13 @@ bool sameFile(const std::string& a, const std::string& b) {
 Problem checkArguments(Arguments& arguments) {
     if (arguments.scene.empty())
         return Failure{ExitCode::BadInput, "SCENE is missing; try: kilolux render SCENE.glb -o OUT.png"};
-    const Result<PictureSize> size = parsePictureSize(arguments.size);
-    if (!size) return Failure{ExitCode::BadInput, size.error()};
     RenderOptions& options = arguments.options;
-    options.width = size.value().width;
-    options.height = size.value().height;
-    if (Problem p = as(ExitCode::BadInput, checkChoice("method", options.method, Renderer::methods())))
+    if (Problem p = as(ExitCode::BadInput, applyPictureArguments(arguments.size, arguments.sets, options)))
         return p;
     const bool ofPass = options.view.starts_with("pass:"); // checked when the frame has run
     if (Problem p =
             as(ExitCode::BadInput, checkChoice("view", ofPass ? "" : options.view, Renderer::views())))
         return p;
-    for (const std::string& set : arguments.sets)
-        if (Problem p = as(ExitCode::BadInput, applySetting(options.settings, set))) return p;
     if (arguments.output.empty()) {
         const std::string stem = fs::path(arguments.scene).stem().string();
         std::string view = options.view;

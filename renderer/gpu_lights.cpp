@@ -231,10 +231,10 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         const LightNode& light = scene.lights[slot];
         const LightDef& def = scene.lightDefs[std::size_t(light.def)];
         std::optional<double> rangeM = def.rangeM;
-        if (!rangeM && def.type != LightType::Directional) {
-            rangeM = deriveRange(def, exposureEv100).rangeM;
-            ++result.derivedRanges;
-        }
+        const bool derives = !rangeM && def.type != LightType::Directional;
+        if (derives) rangeM = deriveRange(def, exposureEv100).rangeM;
+        result.derivedRanges += derives;
+        result.rangeDerived.push_back(derives);
         const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
         result.hot.push_back(makeHot(def, light, world, anchor, rangeM));
         result.hot.back().intensity *= glm::vec3(groupFactor(scene, light));

@@ -30,7 +30,8 @@ double deriveExposureEv100(const Scene& scene);
 struct GpuLights {
     std::vector<shared::LightHot> hot; // one per slot: Scene::lights in order
     std::vector<shared::LightCold> cold;
-    LightTables tables; // whose shapings some of the hot records point to
+    std::vector<char> rangeDerived; // of each: its range follows from the exposure
+    LightTables tables;             // whose shapings some of the hot records point to
     int derivedRanges = 0;
 };
 GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100);

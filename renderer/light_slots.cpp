@@ -78,13 +78,15 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
         const bool isNew = found == slotOfId_.end();
         const std::uint32_t slot = isNew ? take(ids[i], frame) : found->second;
         LightCold cold = lights.cold[i];
+        LightHot before = plain_[slot];
+        if (slots_[slot].rangeDerived && lights.rangeDerived[i]) before.invRange = lights.hot[i].invRange;
+        slots_[slot].rangeDerived = lights.rangeDerived[i] != 0;
         cold.epoch = cold_[slot].epoch;
         LightHot plain = lights.hot[i];
         const bool reshaped = takeShaping(slot, lights, plain.typeFlags);
         plain.typeFlags &= (1u << LIGHT_SHAPING_SHIFT) - 1u; // the place says nothing about the light
         changed_ = changed_ || reshaped;
-        if (isNew || reshaped || !sameBytes(plain_[slot], plain) ||
-            cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
+        if (isNew || reshaped || !sameBytes(before, plain) || cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
             markEdited(slots_[slot]);
         }
         plain_[slot] = plain;

@@ -13,14 +13,13 @@ namespace kilolux {
 
 class LightSlots {
   public:
-    // Frames that a freed slot stays dead: longer than a visible list remembers (setting listMemory, at most
-    // 15).
+    // Frames that a freed slot stays dead: longer than a visible list remembers (setting listMemory).
     static constexpr std::uint64_t kRestFrames = 32;
 
     // Takes over the lights of a frame: `lights` are the records of Scene::lights in order, `ids` their
     // LightNode::id, all different and none 0. The first call marks nothing as edited. A record that differs
-    // from the frame before raises its slot's epoch and is edited for LIGHT_EDITED_FRAMES frames. Frames
-    // count up.
+    // from the frame before raises its slot's epoch and is edited for LIGHT_EDITED_FRAMES frames; a range
+    // that was derived and still is may differ, as it follows the exposure. Frames count up.
     void update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame);
 
     // Slot records as the device wants them; dead ones have LIGHT_FLAG_DEAD.
@@ -48,6 +47,7 @@ class LightSlots {
         std::uint64_t editedFrame = 0;
         std::uint64_t firstEditedFrame = 0; // of the edits that follow one another without a rest
         bool wasEdited = false;
+        bool rangeDerived = false;
     };
     std::uint32_t take(std::uint64_t id, std::uint64_t frame);
     bool takeShaping(std::uint32_t slot, const GpuLights& lights, std::uint32_t typeFlags);

@@ -4,10 +4,10 @@
 #include "renderer/document/light_units.h"
 #include "renderer/document/light_words.h"
 #include "renderer/readback.h"
+#include "renderer/view_colors.h"
 #include "shaders/shared/features.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace kilolux {
@@ -146,8 +146,7 @@ Probe Renderer::Impl::readProbe(glm::ivec2 pixel, ProbeDepth depth) {
     const auto surface = probeSurface.downloadAs<ProbeSurface>();
     describeSurface(surface.front(), gpuScene->anchor(), probe);
     if (plan.view == VIEW_FINAL) probe.viewValue = probe.pictureNit;
-    probe.stops =
-        std::log2(std::max(luminanceOf(probe.pictureNit) * double(constants.exposure), 1e-30) / 0.18);
+    probe.stops = stopsFromGrey(luminanceOf(probe.pictureNit) * double(constants.exposure));
     if (!probe.surface) return probe;
     const Instance& instance = gpuScene->instances()[probe.instance];
     probe.node = scene.nodes[std::size_t(instance.node)].name;

@@ -62,7 +62,7 @@ struct Settings {
     int cellCandidates = 8;
     int missCandidates = 32;
     DimLights dimLights = DimLights::Roulette;
-    double dimThreshold = 0.002;
+    double dimThreshold = 0.0001;
     int resampleCandidates = 32;
     ResampleFrom resampleFrom = ResampleFrom::Cell;
     double reuseFrames = 20.0;

@@ -9,6 +9,7 @@ namespace shader {
 using namespace glm;
 using uint = std::uint32_t;
 #include "shaders/math/color_map.glsl"
+#include "shaders/math/false_color.glsl"
 #include "shaders/math/tone_map.glsl"
 } // namespace shader
 
@@ -30,6 +31,26 @@ std::array<float, 3> signedColor(float t) {
 
 std::array<float, 3> idColor(std::uint32_t id) {
     return asArray(shader::idColor(id));
+}
+
+std::array<float, 3> clippedColor() {
+    return asArray(shader::KX_CLIPPED_COLOR);
+}
+
+std::array<float, 3> crushedColor() {
+    return asArray(shader::KX_CRUSHED_COLOR);
+}
+
+std::array<float, 3> noRayColor() {
+    return asArray(shader::KX_NO_RAY_COLOR);
+}
+
+std::array<float, 3> overflowColor() {
+    return asArray(shader::KX_OVERFLOW_COLOR);
+}
+
+double stopsFromGrey(double exposedLuminance) {
+    return double(shader::stopsFromGrey(float(exposedLuminance)));
 }
 
 std::array<float, 3> displayColor(const std::array<float, 3>& exposed) {

@@ -1,5 +1,7 @@
 #include "renderer/views.h"
 
+#include "renderer/view_colors.h"
+
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -169,10 +171,9 @@ namespace {
 
 std::vector<LegendKey> keysOf(int view) {
     if (view == shared::VIEW_CLIPPING)
-        return {{{0.92f, 0.16f, 0.12f}, "as bright as the display can"},
-                {{0.16f, 0.30f, 0.75f}, "black on the display"}};
-    if (view == shared::VIEW_VISIBILITY) return {{{0.0f, 0.1f, 0.4f}, "no ray"}};
-    if (view == shared::VIEW_LIST_LENGTH) return {{{1.0f, 1.0f, 1.0f}, "overflowed"}};
+        return {{clippedColor(), "as bright as the display can"}, {crushedColor(), "black on the display"}};
+    if (view == shared::VIEW_VISIBILITY) return {{noRayColor(), "no ray"}};
+    if (view == shared::VIEW_LIST_LENGTH) return {{overflowColor(), "overflowed"}};
     return {};
 }
 

@@ -21,6 +21,12 @@ KX_INLINE vec3 signedColor(float t) {
     return mix(grey, x < 0.0 ? vec3(0.120, 0.250, 0.640) : vec3(0.706, 0.080, 0.120), abs(x));
 }
 
+// What has no place on a scale.
+const vec3 KX_CLIPPED_COLOR = vec3(0.92, 0.16, 0.12);
+const vec3 KX_CRUSHED_COLOR = vec3(0.16, 0.30, 0.75);
+const vec3 KX_NO_RAY_COLOR = vec3(0.0, 0.1, 0.4);
+const vec3 KX_OVERFLOW_COLOR = vec3(1.0, 1.0, 1.0);
+
 // A colour per id, of like lightness, neighbours unlike.
 KX_INLINE vec3 idColor(uint id) {
     uint h = hashUint(id + 1u);

@@ -90,8 +90,8 @@ vec3 showClipping(ivec2 at, out vec3 value) {
     vec3 level = 255.0 * srgbFromLinear(clamp(color, 0.0, 1.0));
     float most = max(level.x, max(level.y, level.z));
     value = vec3(most >= KX_CLIPPED_LEVEL ? 1.0 : (most <= KX_CRUSHED_LEVEL ? -1.0 : 0.0));
-    if (value.x > 0.0) return vec3(0.92, 0.16, 0.12);
-    if (value.x < 0.0) return vec3(0.16, 0.30, 0.75);
+    if (value.x > 0.0) return KX_CLIPPED_COLOR;
+    if (value.x < 0.0) return KX_CRUSHED_COLOR;
     return vec3(luminance(level) / 255.0 * 0.8 + 0.1);
 }
 
@@ -113,7 +113,7 @@ vec3 showSampling(uvec2 pixel, out vec3 value) {
     }
     if (kView == VIEW_VISIBILITY) {
         value = vec3(rays > 0.0 ? seen / rays : -1.0);
-        return rays > 0.0 ? vec3(value.x) : vec3(0.0, 0.1, 0.4);
+        return rays > 0.0 ? vec3(value.x) : KX_NO_RAY_COLOR;
     }
     if (kView == VIEW_HIDDEN_SHARE) {
         value = vec3(chosen > 0.0 ? hidden / chosen : 0.0);
@@ -136,7 +136,7 @@ vec3 showSampling(uvec2 pixel, out vec3 value) {
     for (uint i = 0u; i < min(head.x, LIST_CAPACITY); ++i)
         ages += float(unpackEntry(texelFetch(visibleLists, int(texel + 1u + i)).x).age);
     value = kView == VIEW_LIST_LENGTH ? vec3(head, 0.0) : vec3(head.x > 0u ? ages / float(head.x) : 0.0);
-    if (kView == VIEW_LIST_LENGTH) return head.y > 0u ? vec3(1.0) : scaleColor(float(head.x));
+    if (kView == VIEW_LIST_LENGTH) return head.y > 0u ? KX_OVERFLOW_COLOR : scaleColor(float(head.x));
     return scaleColor(value.x);
 }
 

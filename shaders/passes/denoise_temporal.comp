@@ -8,6 +8,10 @@
 // its own history: the mean of (sample - history) over the same pixels is noise about 0 as long as light stands
 // still, whatever the picture shows there. Only what exceeds that noise moves the history, and never farther than
 // clipping to the variance box of the samples (Salvi, "An excursion in temporal supersampling", GDC 2016) would.
+//
+// A history begins with the mean around it, and its first frames, sampled before lists knew what is visible, count less
+// than others: what they found by luck would stand out for as long as it is 1 / n of the sum. For the same reason
+// samples of short histories are limited, which darkens them by the light of the dots; long ones keep all of it.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/gbuffer.glsl"
@@ -31,12 +35,16 @@ layout(rgba16f) writeonly uniform image2D denoiseTraceOut; // for the views; a d
 
 const float kLeastTap = 0.01;       // bilinear weights below are not fetched
 const float kSameNormal = 0.8;      // cosine of geometric normals
-const float kFilledFrames = 0.25;   // what light that was borrowed from neighbours counts
+const float kFirstFrames = 0.25;    // what the first frame counts; each of the next ones as much as all before, up to 1
 const float kMomentFrames = 12.0;   // that the deviation remembers
 const float kRelaxed = 2.0;         // of the clip width where the sample was reconstructed
 const float kLeastExtent = 0.1;     // of display white: smaller boxes do not shorten history (the talk)
 const float kDarkest = 1.0e-3;      // of display white: no change is seen below, and dim lights are found rarely
 const float kTaps = 25.0;
+const float kLimitedFrames = 8.0; // histories of fewer limit their samples, to so many times the neighbourhood and more:
+const float kLimit = 4.0, kLimitPerFrame = 2.0;
+const float kOtherSurface = 1.0e-3; // weight of neighbours of a new history that show another surface
+const float kSameDepth = 0.02; // share of the depth that neighbours of a new history may differ by
 const float kMovesPx = 0.1;    // a picture that moves
 const float kRoughLobe = 0.6;  // roughness from which on highlights are as wide as shading
 
@@ -103,13 +111,13 @@ struct Sums {
     vec3 changeSquare;
 };
 
-void addNeighbour(inout Sums s, vec3 rgb, vec3 historyRgb) {
+void addNeighbour(inout Sums s, vec3 rgb, vec3 historyRgb, float weight) {
     vec3 light = yCoCgFromRgb(min(rgb, vec3(kHalfMax)));
     vec3 change = light - yCoCgFromRgb(historyRgb);
-    s.light += light;
-    s.lightSquare += light * light;
-    s.change += change;
-    s.changeSquare += change * change;
+    s.light += weight * light;
+    s.lightSquare += weight * light * light;
+    s.change += weight * change;
+    s.changeSquare += weight * change * change;
 }
 
 struct Neighbours {
@@ -118,37 +126,65 @@ struct Neighbours {
     float count;
 };
 
-Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory, int tapStep) {
+// The neighbours of a pixel with history that have one themselves.
+Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory) {
     Sums none = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     Neighbours n = Neighbours(none, none, 0.0);
     ivec2 size = ivec2(frame.size), previousSize = ivec2(frame.previousSize);
-    for (int y = -2; y <= 2; y += tapStep) {
+    int tapStep = kSparseNeighbours ? 2 : 1, last = hasHistory ? 2 : -3;
+    for (int y = -2; y <= last; y += tapStep) {
         for (int x = -2; x <= 2; x += tapStep) {
-            if (tapStep == 2 && (x == 0) != (y == 0)) continue;
+            if (kSparseNeighbours && (x == 0) != (y == 0)) continue;
             ivec2 at = pixel + ivec2(x, y), then = before + ivec2(x, y);
             if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
             vec4 diffuse = texelFetch(litDiffuse, at, 0);
             vec3 specular = texelFetch(litSpecular, at, 0).rgb;
             if (diffuse.a <= 0.0 || !isFiniteLight(diffuse.rgb + specular)) continue;
-            vec4 oldDiffuse = vec4(0.0), oldSpecular = vec4(0.0);
-            if (hasHistory) {
-                if (any(lessThan(then, ivec2(0))) || any(greaterThanEqual(then, previousSize))) continue;
-                oldDiffuse = readHistory(texelFetch(previousDiffuse, then, 0));
-                oldSpecular = readHistory(texelFetch(previousSpecular, then, 0));
-                if (oldDiffuse.a <= 0.0) continue;
-            }
-            addNeighbour(n.diffuse, diffuse.rgb, oldDiffuse.rgb);
-            addNeighbour(n.specular, specular, oldSpecular.rgb);
+            if (any(lessThan(then, ivec2(0))) || any(greaterThanEqual(then, previousSize))) continue;
+            vec4 oldDiffuse = readHistory(texelFetch(previousDiffuse, then, 0));
+            vec4 oldSpecular = readHistory(texelFetch(previousSpecular, then, 0));
+            if (oldDiffuse.a <= 0.0) continue;
+            addNeighbour(n.diffuse, diffuse.rgb, oldDiffuse.rgb, 1.0);
+            addNeighbour(n.specular, specular, oldSpecular.rgb, 1.0);
             n.count += 1.0;
         }
     }
     return n;
 }
 
+// Those of a pixel without history, and above all of its surface: every one where the pixel has no sample or nothing has
+// a history, else the few of a diagonal. A loop of its own, which ends at once where no lane needs it.
+void gatherFirst(inout Neighbours n, ivec2 pixel, bool hasHistory, bool isSampled, uvec4 surface, float cosView) {
+    float depthM = surfaceDepthM(surface);
+    vec3 geoNormalWs = surfaceGeoNormalWs(surface);
+    int tapStep = frame.historyValid == 0u || !isSampled || !kSparseNeighbours ? 1 : 6;
+    for (int i = hasHistory ? 25 : 0; i < 25; i += tapStep) {
+        ivec2 at = pixel + ivec2(i % 5 - 2, i / 5 - 2);
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.size)))) continue;
+        vec4 diffuse = texelFetch(litDiffuse, at, 0);
+        vec3 specular = texelFetch(litSpecular, at, 0).rgb;
+        if (diffuse.a <= 0.0 || !isFiniteLight(diffuse.rgb + specular)) continue;
+        uvec4 there = texelFetch(gSurface, at, 0);
+        bool same = abs(surfaceDepthM(there) - depthM) * cosView <= kSameDepth * depthM &&
+                    dot(surfaceGeoNormalWs(there), geoNormalWs) >= kSameNormal;
+        float weight = same ? 1.0 : kOtherSurface;
+        addNeighbour(n.diffuse, diffuse.rgb, vec3(0.0), weight);
+        addNeighbour(n.specular, specular, vec3(0.0), weight);
+        n.count += weight;
+    }
+}
+
 // Of two steps the shorter, if they agree on the side, else none.
 vec3 agreedStep(vec3 a, vec3 b) {
     vec3 shorter = sign(a) * min(abs(a), abs(b));
     return mix(vec3(0.0), shorter, greaterThan(a * b, vec3(0.0)));
+}
+
+// The sample that joins a history of `frames`, around which light has this mean.
+vec3 limitedSample(vec3 light, float frames, float meanY) {
+    float most = (kLimit + kLimitPerFrame * frames) * meanY + kDarkest;
+    float y = luminance(light) * saturate(1.0 - frames / kLimitedFrames);
+    return y > most ? light * (most / y) : light;
 }
 
 struct Filtered {
@@ -160,7 +196,7 @@ struct Filtered {
 // `moments`: mean and deviation of luminance up to now. `valid`: alpha of litDiffuse. `mostFrames`: the limit.
 Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums sums, float count, float mostFrames) {
     Filtered result;
-    float scale = 1.0 / max(count, 1.0);
+    float scale = 1.0 / max(count, 1.0e-6);
     vec3 mean = sums.light * scale, change = sums.change * scale;
     vec3 spread = sqrt(max(sums.lightSquare * scale - mean * mean, vec3(0.0)));
     vec3 noise = sqrt(max(sums.changeSquare * scale - change * change, vec3(0.0)));
@@ -182,22 +218,26 @@ Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums su
         result.confidence = saturate(1.0 - length(move / max(extent, vec3(kLeastExtent))));
     }
     float limit = mix(min(frame.denoising.leastFrames, mostFrames), mostFrames, result.confidence);
-    if (valid > 0.0 && isFiniteLight(rgb)) {
-        frames = min(frames + 1.0, limit);
+    if (valid > 0.0 && frames > 0.0 && isFiniteLight(rgb)) {
+        float counts = clamp(frames, kFirstFrames, 1.0);
+        frames = min(frames + counts, limit);
         vec3 old = storableLight(rgbFromYCoCg(before));
-        float share = 1.0 / max(frames, 1.0);
-        result.light = vec4(mix(old, min(rgb, vec3(kHalfMax)), share), frames);
+        float share = counts / max(frames, counts);
+        vec3 light = min(rgb, vec3(kHalfMax));
+        // A history that may never grow longer would stay dark.
+        if (mostFrames > kLimitedFrames) light = limitedSample(light, history.a, max(moments.x, luminance(old)));
+        result.light = vec4(mix(old, light, share), frames);
         // Moments are those of the whole neighbourhood: many times as sure as a pixel's own.
         float deviation = noise.x;
-        float momentShare = max(1.0 / (heldFrames + 1.0), share);
-        float variance = mix(moments.y * moments.y, deviation * deviation, heldFrames > 0.0 ? momentShare : 1.0);
-        result.moments = vec2(mix(moments.x, mean.x, heldFrames > 0.0 ? momentShare : 1.0), sqrt(variance));
+        float momentShare = max(counts / (heldFrames + counts), share);
+        float variance = mix(moments.y * moments.y, deviation * deviation, momentShare);
+        result.moments = vec2(mix(moments.x, mean.x, momentShare), sqrt(variance));
     } else if (frames > 0.0) {
         result.light = history;
         result.moments = moments;
     } else {
         bool any = count > 0.0;
-        result.light = vec4(any ? rgbFromYCoCg(mean) : vec3(0.0), any ? kFilledFrames : 0.0);
+        result.light = vec4(any ? rgbFromYCoCg(mean) : vec3(0.0), any ? kFirstFrames : 0.0);
         result.moments = vec2(mean.x, noise.x);
     }
     result.light.rgb = storableLight(result.light.rgb);
@@ -218,8 +258,9 @@ void main() {
         History h = fetchHistory(r, geoNormalWs, cosView);
         ivec2 before = ivec2(floor(r.uv * vec2(frame.previousSize)));
         vec4 litD = texelFetch(litDiffuse, at, 0), litS = texelFetch(litSpecular, at, 0);
-        bool hasHistory = h.weight > 0.0, borrows = litD.a <= 0.0 && !hasHistory;
-        Neighbours n = gatherNeighbours(at, before, hasHistory, kSparseNeighbours && !borrows ? 2 : 1);
+        bool hasHistory = h.weight > 0.0 && h.diffuse.a > 0.0;
+        Neighbours n = gatherNeighbours(at, before, hasHistory);
+        gatherFirst(n, at, hasHistory, litD.a > 0.0, surface, cosView);
         float most = litS.a > 0.0 ? litS.a : HISTORY_FREE_FRAMES;
         // Highlights do not move with the surface that shows them, the less the smoother it is.
         vec2 movedPx = r.uv * vec2(frame.previousSize) - vec2(pixel) - 0.5;

@@ -141,9 +141,12 @@ Reference renderReference(const LoopOptions& options, const LoopScene& scene, co
     plain.settings.pixelFilter = shot.settings.pixelFilter;
     plain.settings.raysPerLight = shot.settings.raysPerLight;
     Reference result;
+    // Rims of lamps depend on where jitter meets them: with it, either half goes the whole way.
+    const int frames =
+        plain.settings.jitter ? options.referenceFrames : std::max(1, options.referenceFrames / 2);
     for (std::uint32_t half = 0; half < 2; ++half) {
         plain.seed = 1 + half;
-        result.halves[half] = renderHalf(options, scene, plain, std::max(1, options.referenceFrames / 2));
+        result.halves[half] = renderHalf(options, scene, plain, frames);
     }
     result.mean = result.halves[0];
     for (std::size_t i = 0; i < result.mean.pixels.size(); ++i)

@@ -64,7 +64,8 @@ struct Reference {
     FloatImage mean;
     double exposureEv100 = 0.0;
 };
-// By the method of `shot` ('split' or 'true'), half of options.referenceFrames frames each.
+// By the method of `shot` ('split' or 'true'), half of options.referenceFrames frames each; with jitter all
+// of them.
 Reference renderReference(const LoopOptions& options, const LoopScene& scene, const Shot& shot);
 
 measure::ImageView viewOf(const FloatImage& image);

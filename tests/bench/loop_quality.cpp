@@ -5,6 +5,8 @@
 #include "renderer/measure/metrics.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <fmt/format.h>
 
 namespace kilolux::test {
@@ -122,31 +124,57 @@ std::vector<std::string> withLayouts(std::vector<std::string> names) {
     return names;
 }
 
-// Frames of which errors are averaged: the lists have settled.
-constexpr int kFirstFrame = 16, kLastFrame = 32;
+// Frames of which errors are averaged: the lists have settled. A raw frame may hold one firefly that
+// outweighs all others, so those of guiding are many.
+constexpr int kFirstFrame = 16, kLastFrame = 32, kLastRawFrame = 112;
 
-// Sums over frames [from, to) of one run.
-SquaredError errorOver(const LoopScene& scene, const Shot& shot, const Reference& reference, int from,
-                       int to) {
+// Of frames [from, to) of one run.
+std::vector<SquaredError> errorsOver(const LoopScene& scene, const Shot& shot, const Reference& reference,
+                                     int from, int to) {
     const std::unique_ptr<Renderer> renderer = makeRenderer(scene, shot);
-    SquaredError sum;
+    std::vector<SquaredError> errors;
     for (int frame = 0; frame < to; ++frame) {
         renderFrame(*renderer);
-        if (frame >= from) sum += squaredError(reference, renderer->picture());
+        if (frame >= from) errors.push_back(squaredError(reference, renderer->picture()));
     }
-    return sum;
+    return errors;
+}
+
+// A ratio of means over frames, and its standard error as if frames were independent: what is within two of 1
+// says nothing.
+struct Ratio {
+    double value = 0.0;
+    double error = 0.0;
+    std::string text() const { return fmt::format("{:.3f} +- {:.3f}", value, error); }
+};
+
+Ratio ratioOf(const std::vector<SquaredError>& above, const std::vector<SquaredError>& below,
+              double SquaredError::*which) {
+    double relativeVariance = 0.0, means[2] = {};
+    for (int i = 0; i < 2; ++i) {
+        const std::vector<SquaredError>& errors = i == 0 ? above : below;
+        const double count = double(errors.size());
+        double squares = 0.0;
+        for (const SquaredError& error : errors)
+            means[i] += error.*which / count;
+        for (const SquaredError& error : errors)
+            squares += std::pow(error.*which - means[i], 2.0);
+        relativeVariance += squares / (count * std::max(count - 1.0, 1.0) * means[i] * means[i]);
+    }
+    const double value = means[0] / means[1];
+    return {value, std::abs(value) * std::sqrt(relativeVariance)};
 }
 
 // Errors are compared on one G-buffer: without jitter.
-Shot stillShot(const LoopOptions& options, PictureChoice picture) {
-    Shot shot = makeShot(options, 320, 180);
+Shot stillShot(const LoopOptions& options, PictureChoice picture, int width = 320, int height = 180) {
+    Shot shot = makeShot(options, width, height);
     shot.settings.jitter = false;
     shot.settings.picture = picture;
     return shot;
 }
 
-Reference stillReference(const LoopOptions& options, const LoopScene& scene) {
-    Shot shot = stillShot(options, PictureChoice::Viewport);
+Reference stillReference(const LoopOptions& options, const LoopScene& scene, Shot shot) {
+    shot.settings.picture = PictureChoice::Viewport;
     shot.method = "split";
     return renderReference(options, scene, shot);
 }
@@ -158,37 +186,42 @@ bool isLayout(const std::string& name) {
 } // namespace
 
 Json benchGuiding(const LoopOptions& options) {
-    const int frames = options.frames > 0 ? options.frames : kLastFrame;
+    const int frames = options.frames > 0 ? options.frames : kLastRawFrame;
     Json rows = Json::array();
     std::vector<double> layouts;
     double masksHalfHidden = 0.0, worst = 0.0;
     fmt::print(
-        "  squared error of raw frames {} to {} against 'split', on over off\n  {:<18} {:>12} {:>12} {:>14} "
-        "{:>14}\n",
+        "  squared error of raw frames {} to {} against 'split', on over off, with standard errors\n  {:<18} "
+        "{:>16} {:>16} {:>16} {:>16}\n",
         std::min(kFirstFrame, frames - 1) + 1, frames, "", "guiding", "masks", "guiding, rel.",
         "masks, rel.");
     for (const LoopScene& scene :
          openScenes(options, withLayouts({"half_hidden", "gallery", "night_market", "cornell"}))) {
-        const Reference reference = stillReference(options, scene);
-        Shot on = stillShot(options, PictureChoice::Raw), noGuiding = on, noMasks = on;
+        Shot on = stillShot(options, PictureChoice::Raw, 160, 90), noGuiding = on, noMasks = on;
+        const Reference reference = stillReference(options, scene, on);
         noGuiding.settings.guiding = false;
         noMasks.settings.areaMasks = false;
         const int from = std::min(kFirstFrame, frames - 1);
-        const SquaredError all = errorOver(scene, on, reference, from, frames);
-        const SquaredError unguided = errorOver(scene, noGuiding, reference, from, frames);
-        const SquaredError unmasked = errorOver(scene, noMasks, reference, from, frames);
-        const double guiding = all.absolute / unguided.absolute, masks = all.absolute / unmasked.absolute;
-        fmt::print("  {:<18} {:>12.3f} {:>12.3f} {:>14.3f} {:>14.3f}\n", scene.name, guiding, masks,
-                   all.relative / unguided.relative, all.relative / unmasked.relative);
-        if (isLayout(scene.name)) layouts.push_back(guiding);
-        if (scene.name == "half_hidden") masksHalfHidden = masks;
-        worst = std::max({worst, guiding, masks});
+        const std::vector<SquaredError> all = errorsOver(scene, on, reference, from, frames);
+        const std::vector<SquaredError> unguided = errorsOver(scene, noGuiding, reference, from, frames);
+        const std::vector<SquaredError> unmasked = errorsOver(scene, noMasks, reference, from, frames);
+        const Ratio guiding = ratioOf(all, unguided, &SquaredError::absolute);
+        const Ratio masks = ratioOf(all, unmasked, &SquaredError::absolute);
+        const Ratio guidingRelative = ratioOf(all, unguided, &SquaredError::relative);
+        const Ratio masksRelative = ratioOf(all, unmasked, &SquaredError::relative);
+        fmt::print("  {:<18} {:>16} {:>16} {:>16} {:>16}\n", scene.name, guiding.text(), masks.text(),
+                   guidingRelative.text(), masksRelative.text());
+        std::fflush(stdout);
+        if (isLayout(scene.name)) layouts.push_back(guiding.value);
+        if (scene.name == "half_hidden") masksHalfHidden = masks.value;
+        worst = std::max({worst, guiding.value, masks.value});
         rows.push_back({{"scene", scene.name},
-                        {"guiding", guiding},
-                        {"masks", masks},
-                        {"guidingRelative", all.relative / unguided.relative},
-                        {"masksRelative", all.relative / unmasked.relative},
-                        {"squaredError", all.absolute / (frames - from)}});
+                        {"guiding", guiding.value},
+                        {"guidingError", guiding.error},
+                        {"masks", masks.value},
+                        {"masksError", masks.error},
+                        {"guidingRelative", guidingRelative.value},
+                        {"masksRelative", masksRelative.value}});
     }
     if (!layouts.empty())
         fmt::print("  guiding, median of {} layouts: {}\n", layouts.size(),
@@ -248,7 +281,8 @@ Json benchNoise(const LoopOptions& options) {
         "", "1", earlyText, lateText, "rel. 1", "rel. " + earlyText, "rel. " + lateText);
     for (const LoopScene& scene :
          openScenes(options, withLayouts({"half_hidden", "gallery", "night_market", "cornell"}))) {
-        const Reference reference = stillReference(options, scene);
+        const Reference reference =
+            stillReference(options, scene, stillShot(options, PictureChoice::Viewport));
         std::vector<SquaredError> errors[2]; // per frame; blue, white
         for (int noise = 0; noise < 2; ++noise) {
             Shot shot = stillShot(options, PictureChoice::Denoised);

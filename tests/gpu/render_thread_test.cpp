@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <thread>
@@ -35,44 +36,50 @@ void stepAside(Renderer& renderer, const Camera& start, int frame) {
     renderer.setCamera(camera, Renderer::CameraChange::Move);
 }
 
-TEST(InterruptedFrames, GoOnWithTheirHistory) {
-    const Scene scene = cornell();
+// Gives up frames after a share of what one takes and compares the others with those of a renderer that was
+// never disturbed. How many were given up: a machine that became faster meanwhile ends a frame before its
+// first slice.
+int compareWithGivenUpFrames(const Scene& scene, double shareOfFrame) {
+    const auto steady = Renderer::create(scene, smallOptions(PictureChoice::Denoised));
+    EXPECT_TRUE(steady);
+    for (int frame = 0; frame < 5; ++frame)
+        EXPECT_FALSE(steady.value()->renderFrame());
     std::atomic<bool> interrupt = false;
     RenderOptions options = smallOptions(PictureChoice::Denoised);
     options.interrupt = &interrupt;
-    for (const double shareOfFrame : {0.0, 0.4, 0.8}) {
-        // Where a frame is given up follows from how long its passes took so far.
-        options.sliceMs = 0.001;
-        auto stopped = Renderer::create(scene, options);
-        const auto steady = Renderer::create(scene, smallOptions(PictureChoice::Denoised));
-        ASSERT_TRUE(stopped && steady);
-        if (shareOfFrame > 0.0) {
-            ASSERT_FALSE(stopped.value()->renderFrame());
-            options.sliceMs = shareOfFrame * stopped.value()->statistics().frameMs;
-            stopped = Renderer::create(scene, options);
-            ASSERT_TRUE(stopped);
+    options.sliceMs = std::max(shareOfFrame * steady.value()->statistics().frameMs, 0.001);
+    const auto undisturbed = Renderer::create(scene, smallOptions(PictureChoice::Denoised));
+    const auto stopped = Renderer::create(scene, options);
+    EXPECT_TRUE(undisturbed && stopped);
+    int givenUp = 0;
+    for (int frame = 0; frame < 6; ++frame) {
+        stepAside(*undisturbed.value(), scene.cameras[0], frame);
+        stepAside(*stopped.value(), scene.cameras[0], frame);
+        bool stands = false;
+        if (frame == 3 || frame == 4) {
+            interrupt = true;
+            EXPECT_FALSE(stopped.value()->renderFrame());
+            interrupt = false;
+            stands = !stopped.value()->wasInterrupted();
+            givenUp += !stands;
         }
+        EXPECT_FALSE(undisturbed.value()->renderFrame());
+        if (!stands) EXPECT_FALSE(stopped.value()->renderFrame());
+        EXPECT_FALSE(stopped.value()->wasInterrupted());
+        EXPECT_EQ(stopped.value()->displayPixels(), undisturbed.value()->displayPixels())
+            << "frame " << frame << ", given up after " << shareOfFrame << " of a frame";
+    }
+    return givenUp;
+}
+
+TEST(InterruptedFrames, GoOnWithTheirHistory) {
+    const Scene scene = cornell();
+    EXPECT_EQ(compareWithGivenUpFrames(scene, 0.0), 2);
+    for (const double shareOfFrame : {0.4, 0.8}) {
         int givenUp = 0;
-        for (int frame = 0; frame < 6; ++frame) {
-            stepAside(*steady.value(), scene.cameras[0], frame);
-            stepAside(*stopped.value(), scene.cameras[0], frame);
-            if (frame == 3 || frame == 4) {
-                interrupt = true;
-                ASSERT_FALSE(stopped.value()->renderFrame());
-                interrupt = false;
-                givenUp += stopped.value()->wasInterrupted();
-                // A frame that was faster than its slice has come to its end: there is nothing to compare.
-                if (!stopped.value()->wasInterrupted()) break;
-            }
-            ASSERT_FALSE(steady.value()->renderFrame());
-            ASSERT_FALSE(stopped.value()->renderFrame());
-            EXPECT_FALSE(stopped.value()->wasInterrupted());
-            EXPECT_EQ(stopped.value()->displayPixels(), steady.value()->displayPixels())
-                << "frame " << frame << ", given up after " << shareOfFrame << " of a frame";
-        }
-        if (shareOfFrame == 0.0) {
-            EXPECT_EQ(givenUp, 2);
-        }
+        for (int attempt = 0; attempt < 5 && givenUp == 0; ++attempt)
+            givenUp = compareWithGivenUpFrames(scene, shareOfFrame);
+        EXPECT_GT(givenUp, 0) << shareOfFrame << " of a frame";
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 
 namespace kilolux::test {
 namespace {
@@ -173,15 +174,44 @@ TEST(Denoiser, FollowsChangesOfLight) {
 }
 
 TEST(Denoiser, HistoryGrowsToItsLimit) {
-    RenderOptions options = stochastic({"picture=denoised", "diffuseFrames=6", "specularFrames=3"}, 9);
+    RenderOptions options = stochastic({"picture=denoised", "diffuseFrames=6", "specularFrames=3"}, 11);
     options.replaceLit = [&](int) { return evenLight(1.0f); };
     renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
+        // The first three frames count a quarter, another one, and a half.
+        const float frames = frame < 3 ? 0.25f * float(1 << frame) : float(frame - 1);
         for (std::size_t i = 0; i < t.pixels(); ++i) {
             if (!t.surface(i).seen) continue;
-            EXPECT_EQ(t.floats("historyDiffuse").pixels[4 * i + 3], float(std::min(frame + 1, 6)));
-            EXPECT_EQ(t.floats("historySpecular").pixels[4 * i + 3], float(std::min(frame + 1, 3)));
+            EXPECT_EQ(t.floats("historyDiffuse").pixels[4 * i + 3], std::min(frames, 6.0f));
+            EXPECT_EQ(t.floats("historySpecular").pixels[4 * i + 3], std::min(frames, 3.0f));
         }
     });
+}
+
+// What only the first frames met stands out of none of the next: a dot in the first is spread, one in the
+// second limited.
+TEST(Denoiser, DotsOfTheFirstFramesAreNotSeen) {
+    constexpr float kDot = 100.0f;
+    for (const int dotFrame : {0, 1}) {
+        RenderOptions options = stochastic({"picture=denoised", "antiAlias=off", "jitter=false"}, 12);
+        const auto isDot = [](std::size_t i) { return i % kWidth % 9 == 4 && i / kWidth % 9 == 4; };
+        options.replaceLit = [&](int frame) {
+            LitTexels lit = evenLight(1.0f);
+            for (std::size_t i = 0; i < kPixels; ++i) {
+                for (std::size_t c = 0; c < 3 && frame == dotFrame && isDot(i); ++c)
+                    lit.diffuse[4 * i + c] = kDot;
+            }
+            return lit;
+        };
+        renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
+            if (frame < 2) return;
+            for (std::size_t i = 0; i < t.pixels(); ++i) {
+                if (!t.surface(i).seen) continue;
+                // As 1 / n it would be 100 / 3 then, and still 9 at the end.
+                ASSERT_LT(t.rgb("historyDiffuse", i).y, frame < 4 ? 6.0 : 3.0)
+                    << "dot of frame " << dotFrame << " in frame " << frame << ", pixel " << i;
+            }
+        });
+    }
 }
 
 // Below one ray per pixel most pixels have no sample in a frame: none stays black.
@@ -266,6 +296,41 @@ TEST(PictureChoices, TheViewportSettlesOnTheMean) {
     }
     EXPECT_LT(off, 0.01 * all);
     EXPECT_LT(offFiltered, 1e-3 * all);
+}
+
+// How much of the mean the viewport shows, with a mean far too noisy to be shown for its own sake.
+double shareOfTheMean(const std::vector<std::string>& settings, float laterLight) {
+    constexpr int kFrames = 50;
+    std::vector<std::string> all = {"jitter=false", "settleError=0.001"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    RenderOptions options = stochastic(all, kFrames);
+    options.replaceLit = [&](int frame) {
+        LitTexels lit = evenLight(0.0f);
+        std::mt19937 random(std::uint32_t(frame) + 1u);
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            const float light = (random() & 1u) != 0u ? 2.0f : 0.0f;
+            for (std::size_t c = 0; c < 3; ++c)
+                lit.diffuse[4 * i + c] = light + (frame < kFrames / 2 ? 0.0f : laterLight);
+        }
+        return lit;
+    };
+    double sum = 0.0, count = 0.0;
+    renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
+        for (std::size_t i = 0; i < t.pixels() && frame == kFrames - 1; ++i) {
+            if (!t.surface(i).seen) continue;
+            sum += double(t.floats("viewportColor").pixels[4 * i + 3]);
+            count += 1.0;
+        }
+    });
+    return sum / count;
+}
+
+// A noisy mean gives way to filters that take its noise away and keep its light: not to those that take no
+// noise away, nor to a picture that its noise does not explain.
+TEST(PictureChoices, UselessAndFaultyFiltersGiveWayToTheMean) {
+    EXPECT_LT(shareOfTheMean({}, 0.0f), 0.5);
+    EXPECT_GT(shareOfTheMean({"denoise=off"}, 0.0f), 0.8) << "no noise taken away";
+    EXPECT_GT(shareOfTheMean({}, 4.0f), 0.8) << "another light than the mean's";
 }
 
 // A still picture's edges become those of the supersampled one.

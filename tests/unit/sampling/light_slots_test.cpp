@@ -16,13 +16,16 @@ struct Lights {
     std::vector<std::uint64_t> ids;
     GpuLights records;
 
-    Lights& add(std::uint64_t id, float intensity, std::uint32_t typeFlags = LIGHT_SPHERE) {
+    Lights& add(std::uint64_t id, float intensity, std::uint32_t typeFlags = LIGHT_SPHERE, float invRange = 0,
+                bool derived = false) {
         ids.push_back(id);
         LightHot hot{};
+        hot.invRange = invRange;
         hot.intensity = glm::vec3(intensity);
         hot.typeFlags = typeFlags;
         records.hot.push_back(hot);
         records.cold.push_back({});
+        records.rangeDerived.push_back(derived);
         return *this;
     }
 };
@@ -55,6 +58,25 @@ TEST(LightSlots, FirstLightsAreInOrderAndNotEdited) {
         EXPECT_EQ(epochOf(slots, slot), 0u);
         EXPECT_FALSE(hasFlag(slots, slot, LIGHT_FLAG_EDITED | LIGHT_FLAG_DEAD));
     }
+}
+
+// Derived ranges follow the exposure, which edits no light; a range that somebody typed does.
+TEST(LightSlots, DerivedRangesAreNoEdits) {
+    LightSlots slots;
+    update(slots, Lights().add(1, 1, LIGHT_SPHERE, 0.1f, true), 0);
+    update(slots, Lights().add(1, 1, LIGHT_SPHERE, 0.2f, true), 1);
+    EXPECT_TRUE(slots.changed());
+    EXPECT_FALSE(slots.edited());
+    EXPECT_EQ(slots.hot()[0].invRange, 0.2f);
+    EXPECT_FALSE(hasFlag(slots, 0, LIGHT_FLAG_EDITED));
+    update(slots, Lights().add(1, 1, LIGHT_SPHERE, 0.3f), 2);
+    EXPECT_TRUE(slots.edited()) << "from derived to typed";
+    update(slots, Lights().add(1, 1, LIGHT_SPHERE, 0.4f), 20);
+    EXPECT_TRUE(slots.edited());
+    update(slots, Lights().add(1, 2, LIGHT_SPHERE, 0.5f, true), 40);
+    EXPECT_TRUE(slots.edited()) << "and back";
+    update(slots, Lights().add(1, 3, LIGHT_SPHERE, 0.6f, true), 60);
+    EXPECT_TRUE(slots.edited()) << "with something else";
 }
 
 TEST(LightSlots, OrderDoesNotMatter) {
