@@ -229,6 +229,27 @@ TEST_F(RenderThreadTest, ClosingGivesUpWhatIsPreparedAndTheNextSceneComes) {
     waitFor([](const ShownFrame& f) { return f.settled; });
 }
 
+// Frames that take longer than a movement should, and movements that never end.
+TEST_F(RenderThreadTest, ADragGetsItsPictures) {
+    open();
+    waitFor([](const ShownFrame& f) { return f.settled; });
+    RenderLimits limits;
+    limits.movingFrameMs = 1e-3;
+    limits.leastScale = 1.0;
+    limits.sliceMs = 1e-3;
+    limits.restMs = 1e6;
+    thread.setLimits(limits);
+    Camera camera = scene.cameras[0];
+    int pictures = 0;
+    for (const double endMs = steadyMs() + 60e3; pictures < 5 && steadyMs() < endMs;) {
+        camera.worldFromCamera[3].x += 1e-4;
+        thread.setCamera(camera, Renderer::CameraChange::Move);
+        pictures += thread.takeFrame() ? 1 : 0;
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    EXPECT_EQ(pictures, 5);
+}
+
 TEST_F(RenderThreadTest, PausedItRendersNothing) {
     open();
     waitFor([](const ShownFrame& f) { return f.settled; });
