@@ -144,10 +144,13 @@ class RenderThreadTest : public ::testing::Test {
         ADD_FAILURE() << "no such picture came";
         return std::make_shared<ShownFrame>();
     }
-    void open() {
+    static RenderLimits soonAtRest() {
         RenderLimits limits;
         limits.meanFrames = 3;
         limits.restMs = 1.0;
+        return limits;
+    }
+    void open(const RenderLimits& limits = soonAtRest()) {
         thread.setLimits(limits);
         thread.setSize({48, 32});
         thread.open(scene, smallOptions(PictureChoice::Viewport), scene.cameras[0], 1);
@@ -231,14 +234,13 @@ TEST_F(RenderThreadTest, ClosingGivesUpWhatIsPreparedAndTheNextSceneComes) {
 
 // Frames that take longer than a movement should, and movements that never end.
 TEST_F(RenderThreadTest, ADragGetsItsPictures) {
-    open();
-    waitFor([](const ShownFrame& f) { return f.settled; });
-    RenderLimits limits;
+    RenderLimits limits = soonAtRest();
     limits.movingFrameMs = 1e-3;
     limits.leastScale = 1.0;
     limits.sliceMs = 1e-3;
     limits.restMs = 1e6;
-    thread.setLimits(limits);
+    open(limits);
+    waitFor([](const ShownFrame& f) { return f.settled; });
     Camera camera = scene.cameras[0];
     int pictures = 0;
     for (const double endMs = steadyMs() + 60e3; pictures < 5 && steadyMs() < endMs;) {
