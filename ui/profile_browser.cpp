@@ -106,6 +106,15 @@ void drawFacts(const ProfileEntry& entry) {
     line("Revision", entry.profile->standard);
 }
 
+// What a folder of the list is called: a path says little about the two that are always there.
+std::string headingOf(const Desk& desk, const fs::path& folder) {
+    if (folder == shippedProfiles()) return "Shipped with Kilolux";
+    const fs::path scene = desk.session->path().parent_path();
+    const fs::path inside = folder.lexically_relative(scene.empty() ? "." : scene);
+    if (inside.empty() || *inside.begin() == "..") return folder.string();
+    return inside == "." ? "Beside the scene" : "Beside the scene, " + inside.generic_string();
+}
+
 // The rows; true: one was double-clicked.
 bool drawList(Desk& desk, ProfileBrowserState& state, float widthPx, float heightPx) {
     bool used = false;
@@ -114,7 +123,7 @@ bool drawList(Desk& desk, ProfileBrowserState& state, float widthPx, float heigh
     for (int i = 0; i < int(state.entries.size()); ++i) {
         const ProfileEntry& entry = state.entries[std::size_t(i)];
         const fs::path own = entry.path.parent_path();
-        if (own != folder) ImGui::TextDisabled("%s", (folder = own).string().c_str());
+        if (own != folder) ImGui::TextDisabled("%s", headingOf(desk, folder = own).c_str());
         ImGui::PushID(i);
         if (!entry.profile) ImGui::PushStyleColor(ImGuiCol_Text, theme::kWarning);
         if (ImGui::Selectable(entry.path.filename().string().c_str(), state.chosen == i,

@@ -27,7 +27,7 @@ FIXTURE = Material("fixture", (0.05, 0.05, 0.05), 0.5)
 def plate(word):
     """Pale letters that can be read without any light on them."""
     mask, _ = text.mask(word, 512, 64, 0.2, 0.16)
-    return Material(f"plate {word}", (0.03, 0.03, 0.03), 0.6, emission_nit=(1.6, 1.5, 1.3),
+    return Material(f"plate {word}", (0.03, 0.03, 0.03), 0.6, emission_nit=(34.0, 32.0, 29.0),
                     emission_map=np.repeat(mask[..., None], 3, -1))
 
 
@@ -55,7 +55,7 @@ def leaves():
 def bays():
     """Name and light of each bay, from the left, the upper shelf first."""
     shapes = profiles()
-    common = dict(temperature_k=3000.0, range_m=4.0)
+    common = dict(temperature_k=4600.0, range_m=4.0)
 
     def spot(name, **more):
         return Light(name, "spot", 900.0, "lumen", radius_m=0.03, inner_rad=0.35, outer_rad=0.75, **common, **more)
@@ -134,7 +134,7 @@ def build():
         scene.node(light.name, bay, translate(0, top - 0.2, 0.1) @ rotate_x(-math.pi / 2 + 0.12), light=light)
     width, height = columns * WIDE_M, rows * HIGH_M
     middle = (width / 2, height / 2 - 0.05, -0.6)
-    scene.camera("wide", look_at((width / 2, height / 2 + 0.1, 7.1), middle), math.radians(42))
+    scene.camera("wide", look_at((width / 2, height / 2 + 0.1, 7.2), middle), math.radians(46))
     scene.camera("doors", look_at((3.1, 2.55, 2.2), (4.1, 2.35, -0.8)), math.radians(38))
     scene.camera("masks", look_at((6.6, 0.95, 2.4), (6.9, 0.65, -0.8)), math.radians(42))
     return scene
