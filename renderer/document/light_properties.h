@@ -34,6 +34,11 @@ struct Property {
     Names names = Names::Nothing;
 };
 
+// Clang 14 deduces no aggregates by itself.
+template<typename Access>
+Property(const char*, Access, std::uint32_t, double, double, const char*, const char*, Names = Names::Nothing)
+    -> Property<Access>;
+
 #define KILOLUX_MEMBER(path)                                                                                 \
     [](auto& def) -> auto& {                                                                                 \
         return def.path;                                                                                     \
