@@ -25,8 +25,8 @@ def read(path):
 class LightCase(WindowCase):
     size = (1280, 720)
 
-    def open(self, make=light_scenes.every_type, *arguments):
-        self.remember(meanFrames=1, mostPixels=20_000)  # what is rendered does not matter here
+    def open(self, make=light_scenes.every_type, *arguments, frames=1):
+        self.remember(meanFrames=frames, mostPixels=20_000)  # what is rendered does not matter here
         self.path = make(os.path.join(self.home, "scene.gltf"), *arguments)
         self.original = read(self.path)
         self.window = self.start(self.path)
