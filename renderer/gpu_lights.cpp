@@ -2,6 +2,7 @@
 #include "renderer/gpu_lights.h"
 
 #include "renderer/document/light_units.h"
+#include "renderer/light_shaping.h"
 #include "renderer/lights_cpp/lights_f64.h"
 
 #include <algorithm>
@@ -49,27 +50,10 @@ glm::vec2 sizeOf(const LightDef& def) {
 
 glm::vec2 shapingOf(const LightDef& def) {
     if (def.type != LightType::Spot) return {0.0f, 0.0f};
+    if (isShapedByProfile(def)) return {1.0f, 2.0f}; // in place of the cone: open on all sides
     const double outer = std::cos(def.outerConeRad);
     const double scale = 1.0 / std::max(0.001, std::cos(def.innerConeRad) - outer);
     return {float(scale), float(-outer * scale)};
-}
-
-// What the light has beside cone and range; nothing for most.
-std::optional<shared::LightShaping> makeShaping(const LightDef& def) {
-    shared::LightShaping shaping{};
-    for (int i = 0; i < 4 && def.type == LightType::Rect; ++i) {
-        // The document has the top before the bottom.
-        constexpr BarnDoorSide kSides[] = {BarnDoorSide::Left, BarnDoorSide::Right, BarnDoorSide::Bottom,
-                                           BarnDoorSide::Top};
-        const BarnDoor& door = def.barnDoors[std::size_t(kSides[i])];
-        const double angle = std::clamp(door.angleRad, 0.0, glm::half_pi<double>());
-        shaping.doorReachM[i] = float(door.lengthM * std::sin(angle));
-        // A flap in the light's own plane hides nothing.
-        const double depthM = door.lengthM * std::cos(angle);
-        shaping.doorDepthM[i] = depthM > 1e-6 * door.lengthM ? float(depthM) : 0.0f;
-    }
-    if (shaping.doorDepthM == glm::vec4(0.0f)) return {};
-    return shaping;
 }
 
 // Half of the source's largest extent, for distances that count from its surface.
@@ -84,6 +68,15 @@ double extentM(const LightDef& def) {
     default:
         return def.radiusM;
     }
+}
+
+// A light of numbers that are none is off: files can hold them, and one would spread over the whole picture.
+bool isSound(const shared::LightHot& hot) {
+    const auto finite = [](const auto& v) { return !glm::any(glm::isnan(v)) && !glm::any(glm::isinf(v)); };
+    const bool negative = glm::any(glm::lessThan(hot.intensity, glm::vec3(0.0f))) ||
+                          glm::any(glm::lessThan(hot.sizeM, glm::vec2(0.0f)));
+    return finite(hot.positionWs) && finite(hot.dirWs) && finite(hot.intensity) && finite(hot.sizeM) &&
+           finite(hot.shaping) && std::isfinite(hot.invRange) && !negative;
 }
 
 shared::LightHot makeHot(const LightDef& def, const LightNode& light, const glm::dmat4& worldFromNode,
@@ -103,6 +96,8 @@ shared::LightHot makeHot(const LightDef& def, const LightNode& light, const glm:
     hot.typeFlags = typeCode(def.type) | (light.muted ? shared::LIGHT_FLAG_MUTED : 0u);
     hot.sizeM = sizeOf(def);
     hot.shaping = shapingOf(def);
+    if (!isSound(hot))
+        hot = {.dirWs = {0, 0, -1}, .typeFlags = typeCode(def.type) | shared::LIGHT_FLAG_MUTED};
     return hot;
 }
 
@@ -188,14 +183,17 @@ DerivedRange deriveRange(const LightDef& def, double exposureEv100) {
 
 double deriveExposureEv100(const Scene& scene) {
     std::vector<f64::LightHot> lights;
+    LightTables tables;
     for (const LightNode& light : scene.lights) {
         if (light.muted) continue;
         const LightDef& def = scene.lightDefs[std::size_t(light.def)];
-        shared::LightHot hot = makeHot(def, light, scene.nodes[std::size_t(light.node)].worldFromNode,
-                                       glm::dvec3(0.0), def.rangeM);
+        const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
+        shared::LightHot hot = makeHot(def, light, world, glm::dvec3(0.0), def.rangeM);
         hot.intensity *= glm::vec3(groupFactor(scene, light));
+        hot.typeFlags |= addShaping(tables, def, world, glm::dvec3(0.0), 0.0) << shared::LIGHT_SHAPING_SHIFT;
         lights.push_back(inDouble(hot));
     }
+    const BindLightTables bound(tables);
     if (lights.empty()) return 0.0;
     // A thousand points times the lights, bounded for scenes of ten thousand lights.
     const int count = int(std::clamp<std::size_t>(200000 / lights.size(), 64, 1024));
@@ -225,7 +223,7 @@ double deriveExposureEv100(const Scene& scene) {
     return std::log2(luminanceNit / (1.2 * 0.25));
 }
 
-GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100) {
+GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100, double timeS) {
     GpuLights result;
     for (std::size_t slot = 0; slot < scene.lights.size(); ++slot) {
         const LightNode& light = scene.lights[slot];
@@ -238,13 +236,10 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
         result.hot.push_back(makeHot(def, light, world, anchor, rangeM));
         result.hot.back().intensity *= glm::vec3(groupFactor(scene, light));
-        if (const std::optional<shared::LightShaping> shaping = makeShaping(def);
-            shaping && result.tables.shapings.size() < shared::LIGHT_MAX_SHAPINGS) {
-            result.tables.shapings.push_back(*shaping);
-            result.hot.back().typeFlags |= std::uint32_t(result.tables.shapings.size())
-                                           << shared::LIGHT_SHAPING_SHIFT;
-        }
+        result.hot.back().typeFlags |= addShaping(result.tables, def, world, anchor, timeS)
+                                       << shared::LIGHT_SHAPING_SHIFT;
         shared::LightCold cold{};
+        cold.penumbraScale = float(def.penumbraScale);
         cold.rayEndBiasM = float(def.rayEndBiasM);
         cold.node = std::uint32_t(slot);
         cold.fluxLm = float(fluxLumen(def) * luminanceOf(emittedColor(def)));

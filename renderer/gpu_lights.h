@@ -34,6 +34,8 @@ struct GpuLights {
     LightTables tables;             // whose shapings some of the hot records point to
     int derivedRanges = 0;
 };
-GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100);
+// `timeS` moves light functions.
+GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100,
+                        double timeS = 0.0);
 
 } // namespace kilolux

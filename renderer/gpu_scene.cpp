@@ -233,8 +233,8 @@ void GpuScene::uploadLtcTable() {
 }
 
 void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint64_t frame,
-                            const std::vector<glm::dvec3>& offsetsM) {
-    GpuLights lights = makeGpuLights(scene, anchor_, exposureEv100);
+                            const std::vector<glm::dvec3>& offsetsM, double timeS) {
+    GpuLights lights = makeGpuLights(scene, anchor_, exposureEv100, timeS);
     std::vector<std::uint64_t> ids;
     for (std::size_t i = 0; i < lights.hot.size(); ++i) {
         // Lights made in memory may have no name yet: their place in the scene stands for it.
@@ -247,6 +247,7 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
     slots_.update(lights, ids, frame);
     lightCount_ = std::uint32_t(slots_.hot().size());
     freshSlots_ = slots_.fresh();
+    uploadLightPictures(lights.tables);
     if (!slots_.changed() && lightsHot_) return;
     decideLightFeatures();
     const std::vector<std::uint32_t> directional = slots_.directional();
@@ -274,6 +275,29 @@ void GpuScene::prepareLightPowers(double sceneExtentM) {
     if (lightPowers_) return;
     const std::vector<double> powers = kilolux::lightPowers(slots_.hot(), slots_.cold(), sceneExtentM);
     lightPowers_ = storageBuffer(device_, "lightPowers", aliasTable(powers), "lights");
+}
+
+// Pictures of lights come and go by edits; what is there already stays.
+void GpuScene::uploadLightPictures(const LightTables& tables) {
+    const auto upload = [&](const char* name, const std::vector<std::shared_ptr<const LightPicture>>& layers,
+                            std::vector<std::shared_ptr<const LightPicture>>& before, gpu::Image& image) {
+        if (layers == before) return;
+        before = layers;
+        image = gpu::Image();
+        if (layers.empty()) return;
+        image = gpu::Image(device_, {.name = name,
+                                     .format = VK_FORMAT_R32_SFLOAT,
+                                     .width = std::uint32_t(layers[0]->width),
+                                     .height = std::uint32_t(layers[0]->height),
+                                     .layers = std::uint32_t(layers.size()),
+                                     .arrayed = true,
+                                     .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                     .cause = "lights"});
+        for (std::uint32_t layer = 0; layer < layers.size(); ++layer)
+            image.upload(std::as_bytes(std::span(layers[layer]->texels)), 0, layer);
+    };
+    upload("iesProfiles", tables.profiles, lightPictures_.profiles, iesProfiles_);
+    upload("functionImages", tables.functionImages, lightPictures_.functionImages, functionImages_);
 }
 
 void GpuScene::updateMovingInstances(const Scene& scene) {
@@ -332,9 +356,15 @@ void GpuScene::decideLightFeatures() {
                 return !(hot.typeFlags & LIGHT_FLAG_DEAD) && (hot.typeFlags & LIGHT_TYPE_MASK) == type;
             });
     }
+    const auto anyShaping = [&](auto&& has) {
+        return std::any_of(slots_.shapings().begin(), slots_.shapings().end(), has);
+    };
     features_[FEATURE_BARN_DOORS] =
-        std::any_of(slots_.shapings().begin(), slots_.shapings().end(),
-                    [](const LightShaping& shaping) { return shaping.doorDepthM != glm::vec4(0.0f); });
+        anyShaping([](const LightShaping& shaping) { return shaping.doorDepthM != glm::vec4(0.0f); });
+    features_[FEATURE_IES_PROFILES] =
+        anyShaping([](const LightShaping& shaping) { return shaping.profile != 0u; });
+    features_[FEATURE_LIGHT_FUNCTIONS] =
+        anyShaping([](const LightShaping& shaping) { return shaping.functionKind != LIGHT_FUNCTION_NONE; });
     const bool fits = slots_.hot().size() <= LIGHT_UNIFORM_SLOTS &&
                       device_.limits().maxUniformBufferRange >= LIGHT_UNIFORM_SLOTS * sizeof(LightHot);
     features_[CHOICE_LIGHTS_IN_UNIFORM] = fits;
@@ -375,6 +405,9 @@ gpu::Bindings GpuScene::lightBindings() const {
                            {"ltcParameters", ltcParameters_, gpu::SamplerKind::LinearClamp},
                            {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp}};
     if (lightShapings_) bindings.emplace_back("LightShapings", lightShapings_);
+    if (iesProfiles_) bindings.emplace_back("iesProfiles", iesProfiles_, gpu::SamplerKind::LinearClamp);
+    if (functionImages_)
+        bindings.emplace_back("functionImages", functionImages_, gpu::SamplerKind::LinearRepeat);
     if (features_.at(CHOICE_LIGHTS_IN_UNIFORM)) bindings.emplace_back("LightsHot", lightsHot_);
     return bindings;
 }

@@ -35,9 +35,9 @@ class GpuScene {
                                                     const std::vector<bool>& moving = {});
 
     // Takes over the scene's lights as they are now; `frame` counts up and says how long ago an edit was.
-    // `offsetsM` moves the i-th light; empty: none. The device must be idle.
+    // `offsetsM` moves the i-th light; empty: none. `timeS` moves light functions. The device must be idle.
     void updateLights(const Scene& scene, double exposureEv100, std::uint64_t frame,
-                      const std::vector<glm::dvec3>& offsetsM = {});
+                      const std::vector<glm::dvec3>& offsetsM = {}, double timeS = 0.0);
     // Takes over the transforms of the instances that create() was told may move; what they were becomes the
     // previous one. Once a frame, also when nothing moved. The device must be idle.
     void updateMovingInstances(const Scene& scene);
@@ -79,6 +79,7 @@ class GpuScene {
     void uploadLtcTable();
     void decideFeatures(const Scene& scene);
     void decideLightFeatures();
+    void uploadLightPictures(const LightTables& tables);
 
     gpu::Device& device_;
     glm::dvec3 anchor_;
@@ -100,7 +101,8 @@ class GpuScene {
     gpu::Buffer lightsHot_, lightsCold_, lightShapings_, directionalSlots_, previousInstanceBuffer_;
     gpu::Buffer lightPowers_; // empty: to be made anew
     std::uint32_t directionalCount_ = 0;
-    gpu::Image ltcParameters_, ltcScales_;
+    gpu::Image ltcParameters_, ltcScales_, iesProfiles_, functionImages_;
+    LightTables lightPictures_; // what the two hold; without shapings
 };
 
 } // namespace kilolux

@@ -86,7 +86,8 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
         const bool reshaped = takeShaping(slot, lights, plain.typeFlags);
         plain.typeFlags &= (1u << LIGHT_SHAPING_SHIFT) - 1u; // the place says nothing about the light
         changed_ = changed_ || reshaped;
-        if (isNew || reshaped || !sameBytes(before, plain) || cold.rayEndBiasM != cold_[slot].rayEndBiasM) {
+        if (isNew || reshaped || !sameBytes(before, plain) || cold.rayEndBiasM != cold_[slot].rayEndBiasM ||
+            cold.penumbraScale != cold_[slot].penumbraScale) {
             markEdited(slots_[slot]);
         }
         plain_[slot] = plain;

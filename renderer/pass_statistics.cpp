@@ -32,6 +32,8 @@ constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
     {shared::FEATURE_DISK_LIGHTS, "DiskLights", "no such light"},
     {shared::FEATURE_MOVING_INSTANCES, "MovingInstances", "nothing moves"},
     {shared::FEATURE_BARN_DOORS, "BarnDoors", "no rectangle light has any"},
+    {shared::FEATURE_IES_PROFILES, "IesProfiles", "no light has one"},
+    {shared::FEATURE_LIGHT_FUNCTIONS, "LightFunctions", "no light has one"},
 }};
 
 double percentile(std::vector<double> values, double share) {

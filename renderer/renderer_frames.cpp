@@ -57,9 +57,13 @@ void Renderer::Impl::updateScene(double timeS) {
     const bool swaying = options.settings.lightsSway != 0.0;
     // The marks of an edit fade over some frames, and slots come free.
     const bool fading = framesRun < lightsEditedRun + LightSlots::kRestFrames;
-    if (!lightsDirty && !fading && !swaying && scene.animations.empty()) return;
+    const bool flowing = std::any_of(scene.lightDefs.begin(), scene.lightDefs.end(), [](const LightDef& def) {
+        return def.function.kind == LightFunctionKind::Caustics ||
+               def.function.kind == LightFunctionKind::Flicker;
+    });
+    if (!lightsDirty && !fading && !swaying && !flowing && scene.animations.empty()) return;
     gpuScene->updateLights(scene, exposureEv100, framesRun,
-                           swayOffsets(scene.lights.size(), options.settings.lightsSway, timeS));
+                           swayOffsets(scene.lights.size(), options.settings.lightsSway, timeS), timeS);
     lightsDirty = false;
     if (gpuScene->slots().edited()) {
         lightsEditedRun = framesRun;

@@ -66,6 +66,7 @@ mat3 lightFrame(LightHot light);
 bool lightIsOn(LightHot light);
 bool lightIsDelta(LightHot light);
 LightBounds lightBounds(LightHot light);
+float lightFilter(LightHot light, vec3 receiverWs);
 vec3 lightEvaluate(LightHot light, vec3 receiverWs);
 EmitterOutline lightOutline(LightHot light, vec3 receiverWs, float alpha);
 LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, LtcLobe lobe);

@@ -23,6 +23,13 @@ static LightShaping lightShapingLookup(uint place) {
     return boundLightTables().shapings.at(place);
 }
 
+static float profileLookup(uint layer, vec2 uv) {
+    return float(boundLightTables().profiles.at(layer)->clamped(dvec2(uv)));
+}
+static float functionImageLookup(uint layer, vec2 uv) {
+    return float(boundLightTables().functionImages.at(layer)->repeated(dvec2(uv)));
+}
+
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
 #define KILOLUX_MATH_SELECTION_TYPES_GLSL
 #include "shaders/lights/light.glsl"

@@ -25,7 +25,18 @@ LightHot fromF32(const shared::LightHot& light) {
 }
 
 LightShaping fromF32(const shared::LightShaping& shaping) {
-    return {.doorReachM = vec4(shaping.doorReachM), .doorDepthM = vec4(shaping.doorDepthM)};
+    return {.doorReachM = vec4(shaping.doorReachM),
+            .doorDepthM = vec4(shaping.doorDepthM),
+            .profile = shaping.profile,
+            .profileIsShape = shaping.profileIsShape,
+            .profileCosine = shaping.profileCosine,
+            .profileSide = shaping.profileSide,
+            .profileSr = shaping.profileSr,
+            .functionKind = shaping.functionKind,
+            .functionImage = shaping.functionImage,
+            .functionPhase = shaping.functionPhase,
+            .functionMap = vec4(shaping.functionMap),
+            .functionOriginWs = vec3(shaping.functionOriginWs)};
 }
 
 static vec4 ltcLookup0(vec2 uv) {
@@ -36,6 +47,13 @@ static vec4 ltcLookup1(vec2 uv) {
 }
 static LightShaping lightShapingLookup(uint place) {
     return fromF32(boundLightTables().shapings.at(place));
+}
+
+static double profileLookup(uint layer, vec2 uv) {
+    return (boundLightTables().profiles.at(layer)->clamped(uv));
+}
+static double functionImageLookup(uint layer, vec2 uv) {
+    return (boundLightTables().functionImages.at(layer)->repeated(uv));
 }
 
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header

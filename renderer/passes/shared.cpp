@@ -39,6 +39,8 @@ std::vector<PassUse> lightUses() {
             {"lightsHotTexels"},
             {"LightsCold"},
             {"LightShapings", Access::Read, Presence::Optional}, // absent where no light has one
+            {"iesProfiles", Access::Read, Presence::Optional},
+            {"functionImages", Access::Read, Presence::Optional},
             {"ltcParameters"},
             {"ltcScales"}};
 }

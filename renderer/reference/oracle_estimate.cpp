@@ -31,7 +31,15 @@ dvec3 diffuseAlbedoOf(const PointMaterial& material) {
 }
 
 bool reaches(const OraclePoint& point, const Occlusion& occlusion, const OracleLight& light,
-             const dvec3& directionWs, double distanceM) {
+             dvec3 directionWs, double distanceM) {
+    if (light.penumbraScale != 1.0) {
+        // Towards the same point of the source, grown about its middle.
+        const bool far = light.type == LightType::Directional;
+        const dvec3 middle = far ? -light.dirWs : light.penumbraCenterWs - point.positionWs;
+        const dvec3 to = middle + (directionWs * (far ? 1.0 : distanceM) - middle) * light.penumbraScale;
+        directionWs = glm::normalize(to);
+        if (!far) distanceM = glm::length(to);
+    }
     if (glm::dot(point.geometricNormalWs, directionWs) <= 0.0) return false;
     const double lengthM = distanceM - light.rayEndBiasM;
     return !occlusion || lengthM <= 0.0 || !occlusion(directionWs, lengthM);
@@ -272,7 +280,7 @@ OraclePointResult estimateLight(const OracleLight& whole, const OraclePoint& poi
     if (light.isDelta()) {
         if (light.type == LightType::Directional)
             return evaluateDelta(light, point, occlusion, -light.dirWs,
-                                 std::numeric_limits<double>::infinity(), light.illuminanceLux);
+                                 std::numeric_limits<double>::infinity(), light.illuminanceLux * shaping);
         const dvec3 to = light.centerWs - point.positionWs;
         const double distanceM = glm::length(to);
         return evaluateDelta(light, point, occlusion, to / distanceM, distanceM,

@@ -4,6 +4,7 @@
 // direction.
 #include "renderer/reference/oracle_light.h"
 
+#include "renderer/document/ies_profile.h"
 #include "renderer/document/light_units.h"
 
 #include <algorithm>
@@ -46,6 +47,7 @@ double emittingAreaM2(const OracleLight& light) {
 }
 
 double candelaFromLumen(const OracleLight& light, double lumen) {
+    if (light.profileIsShape) return lumen * light.profile->maxCandela() / light.profile->fluxLm();
     switch (light.type) {
     case LightType::Sphere:
         return lumen / (4.0 * kPi);
@@ -58,6 +60,7 @@ double candelaFromLumen(const OracleLight& light, double lumen) {
 
 // Candela on the axis; lux of a local light is what it gives at 1 m, so the same number.
 double candelaOf(const OracleLight& light, const LightDef& def) {
+    if (light.profileMultiplier > 0.0) return light.profile->maxCandela() * light.profileMultiplier;
     switch (def.unit) {
     case LightUnit::Lumen:
         return candelaFromLumen(light, def.intensity);
@@ -80,12 +83,93 @@ double luxOf(const OracleLight& light, const LightDef& def) {
     return def.unit == LightUnit::Lux ? def.intensity : 0.0; // candela and lumen mean nothing at infinity
 }
 
+Flap flapOf(const LightDef& def, BarnDoorSide side) {
+    const BarnDoor& door = def.barnDoors[static_cast<std::size_t>(side)];
+    return {door.angleRad, door.lengthM};
+}
+
 void placeLight(OracleLight& light, const glm::dmat4& worldFromNode) {
     light.centerWs = glm::dvec3(worldFromNode[3]);
     light.dirWs = glm::normalize(-glm::dvec3(worldFromNode[2]));
     const glm::dvec3 x = glm::dvec3(worldFromNode[0]);
     light.xWs = glm::normalize(x - light.dirWs * glm::dot(x, light.dirWs));
     light.yWs = glm::cross(-light.dirWs, light.xWs);
+}
+
+} // namespace
+
+namespace {
+
+// Relative to the profile's maximum. As a light's shape it stands in place of the area's projection; a flat
+// source seen at less than 3 degrees keeps that of 3 degrees (cosine 0.05).
+double profileFactor(const OracleLight& light, const glm::dvec3& dir) {
+    const double value = light.profile->candelaAt(dir) / light.profile->maxCandela();
+    if (!light.profileIsShape) return value;
+    if (light.type == LightType::Rect || light.type == LightType::Disk) return value / std::max(-dir.z, 0.05);
+    if (light.type != LightType::Tube) return value;
+    const double side = 4.0 * light.radiusM * light.halfLengthM * std::sqrt(1.0 - dir.x * dir.x);
+    return value * projectedAreaM2(light) / (side + kPi * square(light.radiusM));
+}
+
+double smoothOpen(double edge, double at, double softness) {
+    const double t = std::clamp((edge - at) / std::max(softness, 1e-3) + 0.5, 0.0, 1.0);
+    return t * t * (3.0 - 2.0 * t);
+}
+
+double imageLuminance(const Image& image, double u, double v) {
+    const double x = u * image.width - 0.5, y = v * image.height - 0.5;
+    const auto texel = [&](int column, int row) {
+        const auto wrap = [](int i, int n) { return (i % n + n) % n; };
+        const std::size_t at = 4 * (std::size_t(wrap(row, image.height)) * std::size_t(image.width) +
+                                    std::size_t(wrap(column, image.width)));
+        glm::dvec3 rgb;
+        for (int c = 0; c < 3; ++c) {
+            if (image.rgba8.empty()) {
+                rgb[c] = double(image.rgbaF32[at + std::size_t(c)]);
+                continue;
+            }
+            const double s = image.rgba8[at + std::size_t(c)] / 255.0;
+            rgb[c] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+        }
+        return std::clamp(glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
+    };
+    const int left = int(std::floor(x)), top = int(std::floor(y));
+    const double a = glm::mix(texel(left, top), texel(left + 1, top), x - left);
+    const double b = glm::mix(texel(left, top + 1), texel(left + 1, top + 1), x - left);
+    return glm::mix(a, b, y - top);
+}
+
+// At the time 0. Flickers are left out: their level at a time is the renderer's own.
+double functionFactor(const LightFunction& function, const glm::dvec2& plane) {
+    const double c = std::cos(function.angleRad), s = std::sin(function.angleRad);
+    const glm::dvec2 at = glm::dvec2(plane.x * c + plane.y * s, plane.y * c - plane.x * s) / function.scale;
+    const glm::dvec2 middle = glm::abs(at - glm::floor(at) - 0.5) * 2.0;
+    double pattern = 1.0;
+    switch (function.kind) {
+    case LightFunctionKind::None:
+    case LightFunctionKind::Flicker:
+        return 1.0;
+    case LightFunctionKind::Image:
+        if (!function.image) return 1.0;
+        pattern = imageLuminance(*function.image, at.x + 0.5, 0.5 - at.y);
+        break;
+    case LightFunctionKind::Grid:
+        pattern =
+            smoothOpen(0.85, middle.x, function.softness) * smoothOpen(0.85, middle.y, function.softness);
+        break;
+    case LightFunctionKind::Blinds:
+        pattern = smoothOpen(0.5, middle.y, function.softness);
+        break;
+    case LightFunctionKind::Caustics: {
+        const double x = 2.0 * kPi * at.x, y = 2.0 * kPi * at.y, phase = 2.4 * function.seed;
+        const double bentX = 0.8 * std::sin(y + phase), bentY = 0.8 * std::sin(x - phase);
+        const double waves =
+            std::sin(x + bentX + phase) + std::sin(y + bentY - phase) + std::sin(x - y + bentX - bentY);
+        pattern = std::pow(1.0 - std::abs(waves) / 3.0, 8.0 - 7.0 * function.softness);
+        break;
+    }
+    }
+    return 1.0 - function.strength * (1.0 - pattern);
 }
 
 } // namespace
@@ -119,13 +203,8 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     case LightType::Rect:
         light.halfWidthM = 0.5 * def.widthM;
         light.halfHeightM = 0.5 * def.heightM;
-        for (std::size_t i = 0; i < 4; ++i) {
-            // The document has the top before the bottom.
-            constexpr BarnDoorSide kSides[] = {BarnDoorSide::Left, BarnDoorSide::Right, BarnDoorSide::Bottom,
-                                               BarnDoorSide::Top};
-            const BarnDoor& door = def.barnDoors[std::size_t(kSides[i])];
-            light.flaps[i] = {door.angleRad, door.lengthM};
-        }
+        light.flaps = {flapOf(def, BarnDoorSide::Left), flapOf(def, BarnDoorSide::Right),
+                       flapOf(def, BarnDoorSide::Bottom), flapOf(def, BarnDoorSide::Top)};
         break;
     case LightType::Disk:
         light.radiusM = 0.5 * def.widthM;
@@ -139,7 +218,15 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     light.cosOuter = std::cos(def.outerConeRad);
     light.rangeM = rangeM ? rangeM : def.rangeM;
     light.rayEndBiasM = def.rayEndBiasM;
-    glm::dvec3 tint = def.color;
+    light.penumbraScale = def.penumbraScale;
+    light.penumbraCenterWs = light.centerWs;
+    light.function = def.function;
+    const bool hasPlace = def.type != LightType::Directional;
+    if (hasPlace && def.iesUse != IesUse::None && def.ies && def.ies->maxCandela() > 0.0)
+        light.profile = def.ies;
+    light.profileIsShape = light.profile && def.iesUse == IesUse::Shape;
+    light.profileMultiplier = light.profileIsShape && def.iesIntensity ? def.iesMultiplier : 0.0;
+    glm::dvec3 tint = def.color * std::exp2(def.exposureEv);
     if (def.temperatureK) tint *= temperatureColor(*def.temperatureK);
     if (def.type == LightType::Directional) {
         light.illuminanceLux = tint * luxOf(light, def);
@@ -153,12 +240,16 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
 }
 
 double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs) {
-    if (light.type == LightType::Directional) return 1.0;
     const glm::dvec3 toReceiver = receiverWs - light.centerWs;
+    const glm::dvec3 local(glm::dot(toReceiver, light.xWs), glm::dot(toReceiver, light.yWs),
+                           -glm::dot(toReceiver, light.dirWs));
+    if (light.type == LightType::Directional) return functionFactor(light.function, glm::dvec2(local));
     const double distanceM = glm::length(toReceiver);
-    double factor = 1.0;
+    double factor =
+        functionFactor(light.function, glm::dvec2(local) / std::max(std::abs(local.z), 1e-4 * distanceM));
+    if (light.profile && distanceM > 0.0) factor *= profileFactor(light, local / distanceM);
     if (light.rangeM) factor *= std::max(1.0 - std::pow(distanceM / *light.rangeM, 4.0), 0.0);
-    if (light.type == LightType::Spot && distanceM > 0.0) {
+    if (light.type == LightType::Spot && !light.profileIsShape && distanceM > 0.0) {
         const double cosAngle = glm::dot(light.dirWs, toReceiver) / distanceM;
         const double width = std::max(kMinConeCosDifference, light.cosInner - light.cosOuter);
         factor *= square(std::clamp((cosAngle - light.cosOuter) / width, 0.0, 1.0));

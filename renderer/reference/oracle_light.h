@@ -7,6 +7,7 @@
 #include "renderer/document/scene.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 
 namespace kilolux::oracle {
@@ -37,6 +38,12 @@ struct OracleLight {
     std::array<Flap, 4> flaps;        // rectangle: hinged at the edges at -x, +x, -y, +y
     std::optional<double> rangeM;
     double rayEndBiasM = 0.0;
+    double penumbraScale = 1.0; // of the source about this centre, as shadow rays see it
+    glm::dvec3 penumbraCenterWs{0.0};
+    std::shared_ptr<const IesProfile> profile; // of the light's shape or a mask on it; null without
+    bool profileIsShape = false;
+    double profileMultiplier = 0.0; // where the profile's candela stand in place of the light's intensity
+    LightFunction function;
     glm::dvec3 intensityCd{0.0};    // local lights
     glm::dvec3 illuminanceLux{0.0}; // directional, on a surface that faces it
     glm::dvec3 radianceNit{0.0};    // 0 for lights without extent
@@ -49,7 +56,7 @@ struct OracleLight {
 OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode,
                       std::optional<double> rangeM = {});
 
-// Window x cone towards a receiver: a factor on the whole light, 1 for directional lights.
+// Window, cone, profile and light function towards a receiver: a factor on the whole light.
 double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs);
 
 // What the receiver sees of the light past its flaps: a light of the same radiance, smaller and moved.

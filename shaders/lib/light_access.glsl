@@ -13,6 +13,8 @@ layout(constant_id = FEATURE_TUBE_LIGHTS) const bool kTubeLights = true;
 layout(constant_id = FEATURE_RECT_LIGHTS) const bool kRectLights = true;
 layout(constant_id = FEATURE_DISK_LIGHTS) const bool kDiskLights = true;
 layout(constant_id = FEATURE_BARN_DOORS) const bool kBarnDoors = true;
+layout(constant_id = FEATURE_IES_PROFILES) const bool kIesProfiles = true;
+layout(constant_id = FEATURE_LIGHT_FUNCTIONS) const bool kLightFunctions = true;
 layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = false;
 #define KX_HAS_DIRECTIONAL kDirectionalLights
 #define KX_HAS_SPHERE kSphereLights
@@ -21,6 +23,8 @@ layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = fal
 #define KX_HAS_RECT kRectLights
 #define KX_HAS_DISK kDiskLights
 #define KX_HAS_BARN_DOORS kBarnDoors
+#define KX_HAS_IES kIesProfiles
+#define KX_HAS_LIGHT_FUNCTIONS kLightFunctions
 
 uniform sampler2D ltcParameters;
 uniform sampler2D ltcScales;
@@ -35,6 +39,14 @@ layout(scalar) readonly buffer LightShapings {
 };
 LightShaping lightShapingLookup(uint place) {
     return lightShapings[place];
+}
+uniform sampler2DArray iesProfiles;
+float profileLookup(uint layer, vec2 uv) {
+    return textureLod(iesProfiles, vec3(uv, float(layer)), 0.0).x;
+}
+uniform sampler2DArray functionImages;
+float functionImageLookup(uint layer, vec2 uv) {
+    return textureLod(functionImages, vec3(uv, float(layer)), 0.0).x;
 }
 #include "../lights/light.glsl"
 

@@ -23,11 +23,25 @@ bool usablePoint(Receiver receiver, LightHot light, vec2 uv, uint seed, out Ligh
     return false;
 }
 
-// RAY_VISIBLE or RAY_HIDDEN; `traced`: there was a ray to trace.
-uint tracePoint(Receiver receiver, LightSample s, float rayEndBiasM, out bool traced) {
+// The sample with the source grown or shrunk about its centre, as shadow rays see it.
+LightSample scaledSource(LightSample s, LightHot light, Receiver receiver, float penumbraScale) {
+    bool directional = lightType(light) == LIGHT_DIRECTIONAL;
+    vec3 middle = directional ? -light.dirWs : light.positionWs - receiver.point.positionWs;
+    vec3 to = mix(middle, directional ? s.dirWs : s.positionWs - receiver.point.positionWs, penumbraScale);
+    float lengthM = length(to);
+    s.dirWs = to / max(lengthM, 1.0e-20);
+    s.positionWs = receiver.point.positionWs + to;
+    if (!directional) s.distanceM = lengthM;
+    return s;
+}
+
+// RAY_VISIBLE or RAY_HIDDEN of a point on the light of a slot; `traced`: there was a ray to trace.
+uint tracePoint(Receiver receiver, uint slot, LightSample s, out bool traced) {
+    LightCold cold = loadLightCold(slot);
+    if (cold.penumbraScale != 1.0) s = scaledSource(s, loadLightHot(slot), receiver, cold.penumbraScale);
     traced = false;
     if (dot(receiver.surface.geoNormalWs, s.dirWs) <= 0.0) return RAY_HIDDEN;
-    Ray ray = shadowRay(receiver, s, rayEndBiasM);
+    Ray ray = shadowRay(receiver, s, cold.rayEndBiasM);
     if (ray.tMaxM <= 0.0) return RAY_VISIBLE;
     traced = true;
     return occluded(ray) ? RAY_HIDDEN : RAY_VISIBLE;

@@ -251,7 +251,8 @@ KX_INLINE LightIrradiance outlineIrradiance(EmitterOutline outline, ShadingPoint
     vec2 ggx = ggxTimesCosine(point.normalWs, point.viewDirWs, point.noV, middle, point.alpha);
     float direct = solidAngle * ggx.x;
     result.specular = mix(fitted, vec2(direct * (1.0 - ggx.y), direct * ggx.y), beyond * narrow);
-    float most = specularBound(outline, point, solidAngle * 1.1);
+    // Nor more than from light of this radiance all around.
+    float most = min(specularBound(outline, point, solidAngle * 1.1), lobe.albedo.x + lobe.albedo.y);
     result.specular = result.specular * min(1.0, most / max(result.specular.x + result.specular.y, 1.0e-30));
     return result;
 }

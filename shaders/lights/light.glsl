@@ -1,6 +1,7 @@
 // One set of functions for every light type; each evaluation has a single call site, the type only chooses
-// what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place), and may
-// define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK and KX_HAS_BARN_DOORS
+// what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place),
+// profileLookup and functionImageLookup (light_filter.glsl), and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK, KX_HAS_BARN_DOORS,
+// KX_HAS_IES and KX_HAS_LIGHT_FUNCTIONS
 // as constant expressions that are false where the scene has no such light.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
 #define KILOLUX_LIGHTS_LIGHT_GLSL
@@ -8,9 +9,16 @@
 #ifndef KX_HAS_BARN_DOORS
 #define KX_HAS_BARN_DOORS true
 #endif
+#ifndef KX_HAS_IES
+#define KX_HAS_IES true
+#endif
+#ifndef KX_HAS_LIGHT_FUNCTIONS
+#define KX_HAS_LIGHT_FUNCTIONS true
+#endif
 #include "directional.glsl"
 #include "disk.glsl"
 #include "irradiance.glsl"
+#include "light_filter.glsl"
 #include "rect.glsl"
 #include "shading_point.glsl"
 #include "sphere.glsl"
@@ -58,6 +66,7 @@ KX_INLINE LightBounds lightBounds(LightHot light) {
         bounds = diskBounds(light);
     else if (KX_HAS_TUBE && type == LIGHT_TUBE)
         bounds = tubeBounds(light);
+    bounds = profileBounds(light, bounds);
     bounds.radiusM = lightIsOn(light) ? bounds.radiusM : 0.0;
     return bounds;
 }
@@ -80,7 +89,7 @@ KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
         emission = diskEvaluate(light, receiverWs);
     else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
         emission = directionalEvaluate(light, receiverWs);
-    return emission;
+    return emission * lightFilter(light, receiverWs);
 }
 
 // The silhouette from a receiver; `alpha` of its surface decides how finely it is drawn.
@@ -147,9 +156,12 @@ KX_INLINE LightHit lightIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
     return hit;
 }
 
-// Emitted lumens without the range window, luminance-weighted, muted or not. 0 for directional lights.
+// Emitted lumens without range window, barn doors and light function, luminance-weighted, muted or not. 0 for
+// directional lights.
 KX_INLINE float lightFlux(LightHot light) {
     uint type = lightType(light);
+    if (KX_HAS_IES && lightHasShaping(light) && lightShaping(light).profile != 0u)
+        return luminance(light.intensity) * lightShaping(light).profileSr;
     float fluxLm = 0.0;
     if (type == LIGHT_SPHERE)
         fluxLm = sphereFlux(light);

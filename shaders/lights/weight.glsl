@@ -6,6 +6,7 @@
 #define KILOLUX_LIGHTS_WEIGHT_GLSL
 #include "../math/brdf.glsl"
 #include "barn_doors.glsl"
+#include "light_filter.glsl"
 
 // A light's extent: along `longWs` and `shortWs`, which are square to each other, and for a sphere or a tube
 // halfWidthM in every direction. Directional lights are at a distance of 1. Of a rectangle with barn doors it is the
@@ -170,6 +171,7 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
         if (cone < -1.0e-4) return 0.0;
         intensity *= square(clamp(cone, 1.0e-4, 1.0));
     }
+    intensity *= lightFilter(light, point.positionWs);
     LightView view = lightView(e);
     float noVRaw = dot(point.normalWs, point.viewDirWs);
     float nDir = dot(point.normalWs, view.dirWs), vDir = dot(point.viewDirWs, view.dirWs);

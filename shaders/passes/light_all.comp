@@ -57,7 +57,6 @@ void main() {
                 unshadowed.emission = lightEvaluate(light, positionWs);
                 if (luminance(unshadowed.emission) <= 0.0) continue;
             }
-            float rayEndBiasM = loadLightCold(slot).rayEndBiasM;
             float sumVisible = 0.0;
             vec3 sumDiffuseSpecular = vec3(0.0); // true: diffuse, specular for F0, for F90
             for (uint ray = 0u; ray < raysPerLight; ++ray) {
@@ -72,7 +71,7 @@ void main() {
                 }
                 if (!usable) continue;
                 bool traced;
-                float visible = tracePoint(receiver, s, rayEndBiasM, traced) == RAY_VISIBLE ? 1.0 : 0.0;
+                float visible = tracePoint(receiver, slot, s, traced) == RAY_VISIBLE ? 1.0 : 0.0;
                 rays += traced ? 1u : 0u;
                 sumVisible += visible;
                 if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) {

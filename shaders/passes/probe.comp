@@ -128,14 +128,13 @@ void probeLight(Receiver receiver, uint slot, LtcLobe lobe) {
     found.reflectedNit = lit.emission * (diffuseAlbedo(receiver.surface) * (lit.diffuse * KX_INV_PI) +
                                          f0 * lit.specular.x + vec3(lit.specular.y));
     uint seed = hashCombine(pixelSeed(request.renderedPx, 0u, 0u), slot);
-    float rayEndBiasM = loadLightCold(slot).rayEndBiasM;
     for (uint i = 0u; i < PROBE_RAYS; ++i) {
         LightSample s;
         uint state = RAY_NONE;
         vec2 uv = rotatedPoint(vec2(0.03125, 0.5), i, PROBE_RAYS);
         if (reaches && usablePoint(receiver, light, uv, hashCombine(seed, i), s)) {
             bool traced;
-            state = tracePoint(receiver, s, rayEndBiasM, traced);
+            state = tracePoint(receiver, slot, s, traced);
             ++found.rays;
             found.raysVisible += state == RAY_VISIBLE ? 1u : 0u;
             rayEnds[slot * PROBE_RAYS + i] = vec4(s.positionWs, float(state));

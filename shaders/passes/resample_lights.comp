@@ -80,7 +80,7 @@ void main() {
             } else {
                 if (target > 0.0) {
                     bool traced;
-                    if (tracePoint(receiver, point, loadLightCold(chosen.slot).rayEndBiasM, traced) != RAY_VISIBLE) sum = 0.0;
+                    if (tracePoint(receiver, chosen.slot, point, traced) != RAY_VISIBLE) sum = 0.0;
                     rays += traced ? 1u : 0u;
                 }
                 offered = reservoirBefore(pixel, receiver);

@@ -78,7 +78,7 @@ void main() {
                 terms = lit.terms;
             } else if (lit.target > 0.0) {
                 bool traced;
-                uint seen = tracePoint(there, lit.point, loadLightCold(chosen.slot).rayEndBiasM, traced);
+                uint seen = tracePoint(there, chosen.slot, lit.point, traced);
                 rays += traced ? 1u : 0u;
                 float density = seen == RAY_VISIBLE ? lit.target : 0.0;
                 drawnByAll += density * offered.count;

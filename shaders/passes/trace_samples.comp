@@ -26,7 +26,7 @@ void main() {
         LightSample s;
         if (usablePoint(receiver, light, chosen.uv, seed, s)) {
             bool traced;
-            result = tracePoint(receiver, s, loadLightCold(chosen.slot).rayEndBiasM, traced);
+            result = tracePoint(receiver, chosen.slot, s, traced);
             countAll(COUNTER_RAYS, traced ? 1u : 0u);
             countAll(COUNTER_USEFUL_RAYS, traced && result == RAY_VISIBLE ? 1u : 0u);
             if (result == RAY_VISIBLE) result |= areaMaskQuarter(s.uv) << RAY_QUARTER_SHIFT;

@@ -18,7 +18,9 @@ const int FEATURE_RECT_LIGHTS = 6;
 const int FEATURE_DISK_LIGHTS = 7;
 const int FEATURE_MOVING_INSTANCES = 8; // some instance may move
 const int FEATURE_BARN_DOORS = 9;       // some rectangle light has flaps
-const int FEATURE_COUNT = 10;
+const int FEATURE_IES_PROFILES = 10;    // some light has a photometric profile
+const int FEATURE_LIGHT_FUNCTIONS = 11; // some light has a light function
+const int FEATURE_COUNT = 12;
 
 // Choices of the frame that are specialization constants too, beyond the features.
 const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform block holds

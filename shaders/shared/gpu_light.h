@@ -26,6 +26,12 @@ KX_CONST uint LIGHT_JUST_EDITED_FRAMES = 3u;
 KX_CONST uint LIGHT_EPOCH_SHIFT = 8u; // the low 4 bits of the slot's epoch, which every edit raises
 KX_CONST uint LIGHT_EPOCH_MASK = 15u;
 
+KX_CONST uint LIGHT_FUNCTION_NONE = 0u;
+KX_CONST uint LIGHT_FUNCTION_IMAGE = 1u;
+KX_CONST uint LIGHT_FUNCTION_GRID = 2u;   // panes of a window
+KX_CONST uint LIGHT_FUNCTION_BLINDS = 3u; // slats along local X
+KX_CONST uint LIGHT_FUNCTION_CAUSTICS = 4u;
+KX_CONST uint LIGHT_FUNCTION_FLICKER = 5u;
 // Above the epoch: one more than the place of the light's LightShaping, 0 for a light without.
 KX_CONST uint LIGHT_SHAPING_SHIFT = 12u;
 KX_CONST uint LIGHT_MAX_SHAPINGS = 0xfffffu;
@@ -36,6 +42,7 @@ KX_CONST uint LIGHT_MAX_SHAPINGS = 0xfffffu;
 
 struct LightCold {
     float rayEndBiasM; // shadow rays stop this far before the sampled point
+    float penumbraScale; // of the source's size as shadow rays see it, >= 0
     uint epoch;        // increases when the slot gets a new light
     uint node;         // document light index, for views and probes
     float fluxLm;      // total emitted, luminance-weighted; directional: 0
@@ -45,7 +52,7 @@ KX_SHARED_END
 
 #ifdef __cplusplus
 static_assert(sizeof(kilolux::shared::LightHot) == 64);
-static_assert(sizeof(kilolux::shared::LightCold) == 16);
-static_assert(sizeof(kilolux::shared::LightShaping) == 32);
+static_assert(sizeof(kilolux::shared::LightCold) == 20);
+static_assert(sizeof(kilolux::shared::LightShaping) == 92);
 #endif
 #endif

@@ -1,10 +1,12 @@
 // Measures the light grid over the depths of real scenes: `bench_grid [--size WxH] [--runs N] [--json FILE]
 // [SCENE.glb...]`, each scene with its own lights and the first one with crowds of 1,000 and 10,000. Fine
-// cells by threads, by groups and by both; one pass against two; a plain loop in C++ on one thread. All in
+// cells by threads, by groups and by both; one pass against two; a plain loop in C++ on one thread. Then what
+// barn doors save in the lists. All in
 // turn, medians of wall and of processor time, which says more on a busy machine; never passes or fails on
 // time.
 #include "tests/bench/grid_cpu.h"
 #include "tests/gpu/support/grid_rig.h"
+#include "tests/unit/accel/scene_kit.h"
 
 #include "renderer/document/gltf_import.h"
 #include "renderer/gpu_lights.h"
@@ -125,9 +127,9 @@ std::vector<Measured> measure(GridPasses& passes, OnePass& onePass, const Place&
     gpu::Device& device = passes.resources.device();
     GridRig rig(passes, place.scene, place.view, kExposureEv100);
     rig.setDepths(place.depthsM);
-    const std::vector<shared::LightHot> lights =
-        makeGpuLights(place.scene, rig.scene().anchor(), kExposureEv100).hot;
-    CpuGridBuilder loop(rig.constants(), place.depthsM, lights);
+    const GpuLights records = makeGpuLights(place.scene, rig.scene().anchor(), kExposureEv100);
+    const BindLightTables bound(records.tables);
+    CpuGridBuilder loop(rig.constants(), place.depthsM, records.hot);
     std::vector<Measured> results;
     for (const char* name : {"by threads to 256", "by threads to 64", "by threads to 16", "by groups",
                              "one pass", "plain loop", "plain loop, one pass"})
@@ -176,6 +178,53 @@ std::string report(const Place& place, const std::vector<Measured>& results, std
                         median(results[kOnePass].cpuMs) / median(results[0].cpuMs),
                         median(results[kLoop + 1].cpuMs) / loopMs);
     return text;
+}
+
+// Ceiling panels over the first scene's depths, all with doors that lean out 20 degrees: what the lists hold
+// with the doors' planes and without, by cells that list a light at all and by entries.
+void reportDoors(GridPasses& passes, Place place) {
+    const Bounds bounds = worldBounds(place.scene);
+    place.scene = makeScene({makeBox(glm::dvec3(0.01))});
+    constexpr int kSide = 16;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const glm::dvec3 share((i % kSide + 0.5) / kSide, 0.9, (i / kSide + 0.5) / kSide);
+        Node node;
+        node.worldFromNode = glm::translate(glm::dmat4(1.0), glm::mix(bounds.min, bounds.max, share)) *
+                             glm::rotate(glm::dmat4(1.0), -glm::half_pi<double>(), glm::dvec3(1, 0, 0));
+        place.scene.nodes.push_back(node);
+        LightDef def;
+        def.type = LightType::Rect;
+        def.intensity = 200.0;
+        def.widthM = def.heightM = 0.3;
+        def.rangeM = 0.5 * place.view.extentM;
+        def.barnDoors.fill({.angleRad = glm::radians(20.0), .lengthM = 0.3});
+        place.scene.lightDefs.push_back(def);
+        LightNode light;
+        light.node = int(place.scene.nodes.size()) - 1;
+        light.def = i;
+        place.scene.lights.push_back(light);
+    }
+    double entries[2], filled[2];
+    for (const bool doors : {true, false}) {
+        if (!doors) {
+            for (std::size_t i = 0; i < place.scene.lightDefs.size(); ++i)
+                place.scene.lightDefs[i].barnDoors.fill({});
+        }
+        GridRig rig(passes, place.scene, place.view, kExposureEv100);
+        rig.setDepths(place.depthsM);
+        rig.run(0); // makes room
+        const GridLists lists = rig.run(0);
+        entries[doors] = filled[doors] = 0.0;
+        for (const shared::GridCell& cell : lists.cells) {
+            entries[doors] += cell.count;
+            filled[doors] += cell.count > 0;
+        }
+    }
+    fmt::print("{} rectangles with doors over {}: {:.0f} entries of cells instead of {:.0f} ({:.1f} % "
+               "saved), {:.0f} "
+               "cells with lights instead of {:.0f}\n",
+               kSide * kSide, place.name, entries[1], entries[0], 100.0 * (1.0 - entries[1] / entries[0]),
+               filled[1], filled[0]);
 }
 
 Options parse(int argc, char** argv) {
@@ -233,6 +282,7 @@ int run(int argc, char** argv) {
     std::string json;
     for (const Place& place : places)
         fmt::print("{}", report(place, measure(passes, onePass, place, options.runs), json));
+    reportDoors(passes, places[0]);
     if (!options.json.empty()) std::ofstream(options.json) << fmt::format("[\n{}\n]\n", json);
     return 0;
 }

@@ -66,7 +66,17 @@ class Numbers {
     std::mt19937 engine_{11};
 };
 
-// Every other rectangle has the flaps of one of these.
+LightPicture smoothImage(int width, int height) {
+    LightPicture image{width, height, {}};
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x)
+            image.texels.push_back(
+                float(0.5 + 0.3 * std::sin(x * 2.0 * kPi / 24.0) * std::cos(y * 2.0 * kPi / 32.0)));
+    }
+    return image;
+}
+
+// Every other light has one of these.
 LightTables someShapings() {
     Numbers random;
     LightTables tables;
@@ -78,8 +88,24 @@ LightTables someShapings() {
             shaping.doorReachM[flap] = float(length * std::sin(angle));
             shaping.doorDepthM[flap] = float(length * std::cos(angle));
         }
+        // By turns doors alone, with a profile, with a light function.
+        if (i % 3 == 1) {
+            shaping.profile = std::uint32_t(1 + i % 2);
+            shaping.profileIsShape = std::uint32_t(i / 2 % 2);
+            shaping.profileCosine = float(random.uniform(-1.0, 1.0));
+            shaping.profileSide = random.oneIn(2) ? 1.0f : -1.0f;
+            shaping.profileSr = float(random.uniform(0.1, 12.0));
+        } else if (i % 3 == 2) {
+            shaping.functionKind = std::uint32_t(1 + i / 3 % 5);
+            shaping.functionPhase = float(random.uniform(0.0, 1.0));
+            shaping.functionMap = {float(random.uniform(-3, 3)), float(random.uniform(-3, 3)),
+                                   float(random.uniform(0.3, 1.0)), float(random.uniform(0.0, 0.9))};
+        }
         tables.shapings.push_back(shaping);
     }
+    for (int i = 0; i < 2; ++i)
+        tables.profiles.push_back(std::make_shared<const LightPicture>(smoothImage(145, 361)));
+    tables.functionImages.push_back(std::make_shared<const LightPicture>(smoothImage(256, 256)));
     return tables;
 }
 
@@ -201,6 +227,8 @@ class Lights : public GpuTest {
         hot.upload(slots);
         coldBuffer.upload(cold);
         input.upload(cases);
+        const gpu::Image profiles = layersOf("iesProfiles", boundLightTables().profiles);
+        const gpu::Image functions = layersOf("functionImages", boundLightTables().functionImages);
         const gpu::Image parameters = tableImage("ltcParameters", boundLtcTable().parameters);
         const gpu::Image scales = tableImage("ltcScales", boundLtcTable().scales);
         gpu::Commands commands(device());
@@ -209,6 +237,8 @@ class Lights : public GpuTest {
                       {"lightsHotTexels", hot},
                       {"LightsCold", coldBuffer},
                       {"LightShapings", shapings},
+                      {"iesProfiles", profiles, gpu::SamplerKind::LinearClamp},
+                      {"functionImages", functions, gpu::SamplerKind::LinearRepeat},
                       {"ltcParameters", parameters, gpu::SamplerKind::LinearClamp},
                       {"ltcScales", scales, gpu::SamplerKind::LinearClamp},
                       {"Cases", input},
@@ -219,6 +249,19 @@ class Lights : public GpuTest {
     }
 
   private:
+    gpu::Image layersOf(const char* name, const std::vector<std::shared_ptr<const LightPicture>>& layers) {
+        gpu::Image image(device(), {.name = name,
+                                    .format = VK_FORMAT_R32_SFLOAT,
+                                    .width = std::uint32_t(layers[0]->width),
+                                    .height = std::uint32_t(layers[0]->height),
+                                    .layers = std::uint32_t(layers.size()),
+                                    .arrayed = true,
+                                    .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+        for (std::uint32_t layer = 0; layer < layers.size(); ++layer)
+            image.upload(std::as_bytes(std::span(layers[layer]->texels)), 0, layer);
+        return image;
+    }
+
     gpu::Image tableImage(const char* name, const std::vector<glm::vec4>& texels) {
         gpu::Image image(device(), {.name = name,
                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT,
@@ -237,6 +280,8 @@ class Lights : public GpuTest {
                             {"lightsHotTexels"},
                             {"LightsCold"},
                             {"LightShapings"},
+                            {"iesProfiles"},
+                            {"functionImages"},
                             {"ltcParameters"},
                             {"ltcScales"},
                             {"Cases"},
@@ -254,7 +299,7 @@ TypeCases casesOf(std::uint32_t type, std::size_t count) {
     TypeCases result;
     for (std::size_t i = 0; i < 200; ++i)
         result.lights.push_back(randomLight(random, type));
-    for (std::uint32_t i = 0; type == shared::LIGHT_RECT && i < result.lights.size(); i += 2)
+    for (std::uint32_t i = 0; i < result.lights.size(); i += 2)
         result.lights[i].typeFlags |= (i / 2 % 50 + 1) << shared::LIGHT_SHAPING_SHIFT;
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t slot = std::uint32_t(i % result.lights.size());

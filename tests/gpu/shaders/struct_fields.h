@@ -8,8 +8,10 @@
 // clang-format off
 #define FIELDS_LightHot(F) \
     F(positionWs) F(invRange) F(dirWs) F(tangentOct) F(intensity) F(typeFlags) F(sizeM) F(shaping)
-#define FIELDS_LightCold(F) F(rayEndBiasM) F(epoch) F(node) F(fluxLm)
-#define FIELDS_LightShaping(F) F(doorReachM) F(doorDepthM)
+#define FIELDS_LightCold(F) F(rayEndBiasM) F(penumbraScale) F(epoch) F(node) F(fluxLm)
+#define FIELDS_LightShaping(F) \
+    F(doorReachM) F(doorDepthM) F(profile) F(profileIsShape) F(profileCosine) F(profileSide) F(profileSr) \
+    F(functionKind) F(functionImage) F(functionPhase) F(functionMap) F(functionOriginWs)
 #define FIELDS_FrameConstants(F) \
     F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
     F(size) F(outputSize) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \

@@ -1,5 +1,6 @@
 #include "tests/gpu/support/grid_rig.h"
 
+#include "renderer/document/ies_profile.h"
 #include "renderer/lights_cpp/ltc_table.h"
 #include "tests/unit/accel/scene_kit.h"
 
@@ -38,6 +39,17 @@ LightDef randomLight(const std::function<double(double, double)>& within, const 
     def.outerConeRad = std::exp(within(std::log(1e-3), std::log(glm::half_pi<double>())));
     def.innerConeRad = 0.7 * def.outerConeRad;
     return def;
+}
+
+// Light within 50 degrees of straight ahead (0) or behind (130 to 180), the same all about.
+std::shared_ptr<const IesProfile> narrowProfile(double fromDeg) {
+    auto profile = std::make_shared<IesProfile>();
+    profile->horizontalDeg = {0.0};
+    for (int i = 0; i <= 10; ++i) {
+        profile->verticalDeg.push_back(fromDeg + 5.0 * i);
+        profile->candela.push_back(100.0 + i);
+    }
+    return profile;
 }
 
 } // namespace
@@ -115,7 +127,13 @@ Scene crowdScene(const LightCrowd& crowd) {
         scene.nodes.push_back(node);
         LightDef def = randomLight(within, crowd);
         if (def.type == LightType::Rect && i % 2 == 0) {
-            def.barnDoors.fill({glm::half_pi<double>() * (i % 17) / 17.0, def.widthM * (0.2 + i % 5)});
+            for (int side = 0; side < 4; ++side)
+                def.barnDoors[std::size_t(side)] = {glm::half_pi<double>() * ((i + 5 * side) % 17) / 17.0,
+                                                    def.widthM * (0.2 + (i + side) % 5)};
+        }
+        if (i % 7 == 0 && def.type != LightType::Directional) {
+            def.ies = narrowProfile(i % 2 == 0 ? 0.0 : 130.0);
+            def.iesUse = i % 3 == 0 ? IesUse::Mask : IesUse::Shape;
         }
         scene.lightDefs.push_back(def);
         LightNode light;

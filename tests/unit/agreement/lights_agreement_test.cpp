@@ -1,6 +1,7 @@
 // The whole chain from a light as typed to light at a surface, twice: the renderer's (units, light record,
 // analytic irradiance, the shaders' source in double) and the oracle's. Shares only the document and the
 // colour of a temperature.
+#include "renderer/document/ies_profile.h"
 #include "renderer/gpu_lights.h"
 #include "renderer/lights_cpp/lights_f64.h"
 #include "renderer/lights_cpp/ltc_table.h"
@@ -31,12 +32,67 @@ class Random {
     std::mt19937 engine_{7};
 };
 
-enum class Shaped { No, BarnDoors };
+enum class Shaped { No, BarnDoors, ProfileShape, ProfileMask, Image, Grid, Blinds, Caustics };
 
 struct Kind {
     LightType type;
     Shaped shaped = Shaped::No;
 };
+
+// Type C over a quarter of the turn, with light above and below; its angles are those of the renderer's
+// pictures.
+std::shared_ptr<const IesProfile> someProfile() {
+    auto profile = std::make_shared<IesProfile>();
+    for (int i = 0; i <= 24; ++i)
+        profile->verticalDeg.push_back(5.0 * i);
+    profile->horizontalDeg = {0.0, 22.5, 45.0, 67.5, 90.0};
+    for (const double turn : profile->horizontalDeg) {
+        for (const double at : profile->verticalDeg)
+            profile->candela.push_back(at == 120.0 ? 0.0
+                                                   : 300.0 + 200.0 * std::cos(at / 20.0) +
+                                                         100.0 * std::sin(turn / 15.0 + at / 40.0));
+    }
+    return profile;
+}
+
+// As fine as the renderer keeps pictures, so that none is resampled.
+std::shared_ptr<const Image> somePicture() {
+    auto image = std::make_shared<Image>();
+    image->width = image->height = 256;
+    for (int y = 0; y < 256; ++y) {
+        for (int x = 0; x < 256; ++x) {
+            const auto level = float(0.5 + 0.25 * std::sin(x * glm::two_pi<double>() / 64.0) +
+                                     0.2 * std::cos(y * glm::two_pi<double>() / 128.0));
+            for (int c = 0; c < 3; ++c)
+                image->rgbaF32.push_back(level);
+            image->rgbaF32.push_back(1.0f);
+        }
+    }
+    return image;
+}
+
+void addProfileOrFunction(LightDef& def, Random& random, Shaped shaped) {
+    static const std::shared_ptr<const IesProfile> profile = someProfile();
+    static const std::shared_ptr<const Image> picture = somePicture();
+    if (shaped == Shaped::ProfileShape || shaped == Shaped::ProfileMask) {
+        def.ies = profile;
+        def.iesUse = shaped == Shaped::ProfileShape ? IesUse::Shape : IesUse::Mask;
+        def.iesIntensity = random.between(0.0, 1.0) < 0.5;
+        def.iesMultiplier = random.between(0.1, 3.0);
+        return;
+    }
+    def.function = {.kind = shaped == Shaped::Image    ? LightFunctionKind::Image
+                            : shaped == Shaped::Grid   ? LightFunctionKind::Grid
+                            : shaped == Shaped::Blinds ? LightFunctionKind::Blinds
+                                                       : LightFunctionKind::Caustics,
+                    .imageUri = {},
+                    .image = picture,
+                    .scale = random.between(0.1, 2.0),
+                    .angleRad = random.between(-3.0, 3.0),
+                    .softness = random.between(0.1, 1.0),
+                    .strength = random.between(0.0, 1.0),
+                    .seed = random.between(0.0, 2.0)};
+}
 
 LightDef randomDef(Random& random, const Kind& kind) {
     const LightType type = kind.type;
@@ -58,7 +114,10 @@ LightDef randomDef(Random& random, const Kind& kind) {
     def.innerConeRad = def.outerConeRad * random.between(0.0, 0.9);
     def.angularDiameterRad = random.between(0.0, 0.3);
     if (kind.shaped == Shaped::BarnDoors) {
-        def.barnDoors.fill({random.between(0.0, 1.5), random.between(0.05, 1.5)});
+        for (BarnDoor& door : def.barnDoors)
+            door = {random.between(0.0, 1.5), random.between(0.0, 1.5)};
+    } else if (kind.shaped != Shaped::No) {
+        addProfileOrFunction(def, random, kind.shaped);
     }
     return def;
 }
@@ -138,10 +197,16 @@ TEST_P(Agreement, RendererAndOracleGiveTheSameLight) {
     EXPECT_LT(specular[570], 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, Agreement,
-                         testing::Values(Kind{LightType::Directional}, Kind{LightType::Sphere},
-                                         Kind{LightType::Spot}, Kind{LightType::Tube}, Kind{LightType::Rect},
-                                         Kind{LightType::Disk}, Kind{LightType::Rect, Shaped::BarnDoors}));
+INSTANTIATE_TEST_SUITE_P(
+    Types, Agreement,
+    testing::Values(Kind{LightType::Directional}, Kind{LightType::Sphere}, Kind{LightType::Spot},
+                    Kind{LightType::Tube}, Kind{LightType::Rect}, Kind{LightType::Disk},
+                    Kind{LightType::Rect, Shaped::BarnDoors}, Kind{LightType::Sphere, Shaped::ProfileShape},
+                    Kind{LightType::Spot, Shaped::ProfileShape}, Kind{LightType::Spot, Shaped::ProfileMask},
+                    Kind{LightType::Rect, Shaped::ProfileShape}, Kind{LightType::Disk, Shaped::ProfileMask},
+                    Kind{LightType::Tube, Shaped::ProfileShape}, Kind{LightType::Tube, Shaped::ProfileMask},
+                    Kind{LightType::Spot, Shaped::Image}, Kind{LightType::Rect, Shaped::Grid},
+                    Kind{LightType::Directional, Shaped::Blinds}, Kind{LightType::Sphere, Shaped::Caustics}));
 
 } // namespace
 } // namespace kilolux

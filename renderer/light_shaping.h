@@ -1,0 +1,31 @@
+// What shapes a light beyond its hot record, from the document to LightTables: barn doors, photometric
+// profiles and light functions.
+#pragma once
+
+#include "renderer/document/scene.h"
+#include "renderer/lights_cpp/light_tables.h"
+
+namespace kilolux {
+
+// A photometric profile as shaders look it up, resampled to half a degree by 2.5 degrees
+// (lights/light_filter.glsl): exact for profiles of type C whose angles are multiples of that, and at steps
+// off by at most half a degree.
+struct LightProfile {
+    std::shared_ptr<const LightPicture> image; // 1 at the profile's maximum
+    double halfAngleRad = 0.0;                 // of the narrower cone, about -Z or +Z, that holds all of it
+    double side = 1.0;                         // 1: about -Z, the way the light looks
+    std::vector<double> rowSr;                 // integral of each row over the sphere, as trapezoids
+    double sidewaysSr = 0.0;                   // of the profile times the sine from local X
+};
+LightProfile makeLightProfile(const IesProfile& profile);
+
+// The luminance of a picture, 0 to 1, resampled to 256 x 256.
+LightPicture makeFunctionImage(const Image& image);
+
+// Adds what the light has to `tables`; the number that LIGHT_SHAPING_SHIFT wants, 0 for a light that has
+// nothing. Pictures are made once for as long as the document's profile or image lives. `timeS` moves
+// caustics and flicker.
+std::uint32_t addShaping(LightTables& tables, const LightDef& def, const glm::dmat4& worldFromNode,
+                         const glm::dvec3& anchor, double timeS);
+
+} // namespace kilolux
