@@ -146,8 +146,13 @@ std::optional<Error> checkGroup(const Scene& scene, const LightGroup& group) {
 
 std::optional<Error> checkNode(const Scene& scene, std::uint64_t index) {
     const Node& node = scene.nodes[index];
-    // Parents come first, which excludes cycles.
-    if (node.parent >= static_cast<int>(index)) return Error{"parent: expected an earlier node"};
+    // Files may have children before their parents; what is excluded is a cycle.
+    const auto count = static_cast<int>(scene.nodes.size());
+    int above = node.parent;
+    for (int steps = 0; above >= 0; ++steps) {
+        if (above >= count || steps > count) return Error{"parent: expected a node, and no cycle"};
+        above = scene.nodes[static_cast<std::size_t>(above)].parent;
+    }
     if (node.mesh >= static_cast<int>(scene.meshes.size())) return Error{"mesh: expected one that exists"};
     if (std::optional<Error> error = checkText(node.name)) return error;
     return checkTransform(node.restTrs ? EditValue(*node.restTrs) : EditValue(node.localFromNode));
