@@ -42,7 +42,7 @@ const float kLeastExtent = 0.1;     // of display white: smaller boxes do not sh
 const float kDarkest = 1.0e-3;      // of display white: no change is seen below, and dim lights are found rarely
 const float kTaps = 25.0;
 const float kLimitedFrames = 8.0; // histories of fewer limit their samples, to so many times the neighbourhood and more:
-const float kLimit = 4.0, kLimitPerFrame = 2.0;
+const float kLimit = 12.0, kLimitPerFrame = 6.0;
 const float kOtherSurface = 1.0e-3; // weight of neighbours of a new history that show another surface
 const float kSameDepth = 0.02; // share of the depth that neighbours of a new history may differ by
 const float kMovesPx = 0.1;    // a picture that moves

@@ -1,7 +1,7 @@
 // The light records that cross from the document to the shaders. All values are photometric and never
 // pre-exposed. The hot record is what candidate weights and culling need, in exactly 64 bytes; the cold one
-// holds the rest. Shaders read them only through loadLightHot(slot) and loadLightCold(slot). A third record, which the
-// hot one points to, exists for lights that are shaped by more than a cone and a range.
+// holds the rest. Shaders read them only through loadLightHot(slot) and loadLightCold(slot). A third record,
+// which the hot one points to, exists for lights that are shaped by more than a cone and a range.
 #ifndef KILOLUX_SHARED_GPU_LIGHT_H
 #define KILOLUX_SHARED_GPU_LIGHT_H
 #include "base.h"
@@ -41,11 +41,11 @@ KX_CONST uint LIGHT_MAX_SHAPINGS = 0xfffffu;
 #include "light_shaping.inl" // struct LightShaping
 
 struct LightCold {
-    float rayEndBiasM; // shadow rays stop this far before the sampled point
+    float rayEndBiasM;   // shadow rays stop this far before the sampled point
     float penumbraScale; // of the source's size as shadow rays see it, >= 0
-    uint epoch;        // increases when the slot gets a new light
-    uint node;         // document light index, for views and probes
-    float fluxLm;      // total emitted, luminance-weighted; directional: 0
+    uint epoch;          // increases when the slot gets a new light
+    uint node;           // document light index, for views and probes
+    float fluxLm;        // total emitted, luminance-weighted; directional: 0
 };
 
 KX_SHARED_END

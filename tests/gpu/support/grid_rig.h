@@ -66,7 +66,8 @@ class GridRig {
 
 // A scene of `count` lights of every type within `spreadM` of the origin on each axis, turned anyhow. Ranges
 // from a thousandth of the spread to `longestRange` of it, as many in every octave; cones from 0.06 to 90
-// degrees; every other rectangle with barn doors, some lights with a profile; some lights muted, some without a range. Its geometry is one small box.
+// degrees; every other rectangle with barn doors, some lights with a profile; some lights muted, some without
+// a range. Its geometry is one small box.
 struct LightCrowd {
     int count = 100;
     double spreadM = 1.0;
