@@ -143,7 +143,7 @@ std::vector<std::uint32_t> entriesOf(Loop& loop, std::uint32_t slot) {
 
 TEST(Edits, ListsForgetTheDeadAndTheMasksOfTheChanged) {
     Scene scene = crowdScene(12, 5);
-    Loop loop(scene, loopOptions(64, 48, {"listMemory=15"}));
+    Loop loop(scene, loopOptions(64, 48, {"listMemory=14"}));
     loop.frames(12);
     const std::uint32_t gone = loop.renderer().lightSlot(kEdited), changed = loop.renderer().lightSlot(1);
     EXPECT_GT(entriesOf(loop, gone).size(), 10u);
