@@ -26,12 +26,6 @@ struct Arguments {
     bench::BenchPlan plan;
 };
 
-struct Failure {
-    ExitCode code;
-    std::string message;
-};
-using Problem = std::optional<Failure>;
-
 std::string dateNow() {
     const std::time_t now = std::time(nullptr);
     std::tm utc{};

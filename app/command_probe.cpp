@@ -21,12 +21,6 @@ struct Arguments {
     bool json = false;
 };
 
-struct Failure {
-    ExitCode code;
-    std::string message;
-};
-using Problem = std::optional<Failure>;
-
 Problem badInput(const std::optional<Error>& error) {
     return error ? Problem{{ExitCode::BadInput, error->message}} : std::nullopt;
 }

@@ -33,13 +33,6 @@ struct Arguments {
     bool verbose = false;
 };
 
-// An error on the way out, with the code that belongs to it.
-struct Failure {
-    ExitCode code;
-    std::string message;
-};
-using Problem = std::optional<Failure>;
-
 Problem as(ExitCode code, const std::optional<Error>& error) {
     return error ? Problem{{code, error->message}} : std::nullopt;
 }

@@ -35,6 +35,13 @@ LightSample scaledSource(LightSample s, LightHot light, Receiver receiver, float
     return s;
 }
 
+// The BRDF at a point of a light, over the point's density: diffuse without albedo, specular for F0 and for F90.
+vec3 termsAtPoint(Receiver receiver, LightSample s) {
+    BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, receiver.point.viewDirWs, receiver.point.noV, s.dirWs,
+                                           receiver.point.alpha);
+    return s.geometry * vec3(brdf.diffuse, brdf.specular);
+}
+
 // RAY_VISIBLE or RAY_HIDDEN of a point on the light of a slot; `traced`: there was a ray to trace.
 uint tracePoint(Receiver receiver, uint slot, LightSample s, out bool traced) {
     LightCold cold = loadLightCold(slot);

@@ -7,6 +7,8 @@
 #include "light_ray.glsl"
 #include "../shared/resampling.h"
 
+const float kLikeNormal = 0.9063; // 25 degrees: surfaces that turn no more may take each other's reservoirs
+
 struct LightReservoir {
     uint slot; // NO_RESERVOIR without a light
     vec2 uv;
@@ -45,9 +47,7 @@ PointLight pointLight(Receiver receiver, uint slot, vec2 uv) {
     if (luminance(lit.emission) <= 0.0) return lit;
     lit.point = lightSample(light, receiver.point.positionWs, uv);
     if (!lit.point.valid || dot(receiver.point.normalWs, lit.point.dirWs) <= 0.0) return lit;
-    BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, receiver.point.viewDirWs, receiver.point.noV,
-                                           lit.point.dirWs, receiver.point.alpha);
-    lit.terms = lit.point.geometry * vec3(brdf.diffuse, brdf.specular);
+    lit.terms = termsAtPoint(receiver, lit.point);
     vec3 reflectance = diffuseAlbedo(receiver.surface) * lit.terms.x + specularF0(receiver.surface) * lit.terms.y +
                        vec3(lit.terms.z);
     lit.target = luminance(lit.emission * reflectance);

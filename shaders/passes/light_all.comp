@@ -74,11 +74,7 @@ void main() {
                 float visible = tracePoint(receiver, slot, s, traced) == RAY_VISIBLE ? 1.0 : 0.0;
                 rays += traced ? 1u : 0u;
                 sumVisible += visible;
-                if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) {
-                    BrdfTimesCosine brdf = brdfTimesCosine(receiver.point.normalWs, receiver.point.viewDirWs, receiver.point.noV,
-                                                           s.dirWs, receiver.point.alpha);
-                    sumDiffuseSpecular += visible * s.geometry * vec3(brdf.diffuse, brdf.specular);
-                }
+                if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) sumDiffuseSpecular += termsAtPoint(receiver, s);
             }
             vec3 terms = kEstimator == ESTIMATOR_SPLIT
                              ? sumVisible * vec3(unshadowed.diffuse * KX_INV_PI, unshadowed.specular)

@@ -24,8 +24,6 @@ layout(scalar) readonly buffer LightPowers {
 };
 layout(rgba32ui) writeonly uniform uimage2D reservoirsOut;
 
-const float kSameNormal = 0.9063; // 25 degrees, as for neighbours
-
 LightReservoir reservoirBefore(uvec2 pixel, Receiver receiver) {
     Reprojection before = reproject(pixel);
     if (!before.onScreen) return emptyLightReservoir();
@@ -33,7 +31,7 @@ LightReservoir reservoirBefore(uvec2 pixel, Receiver receiver) {
     uvec4 surface = texelFetch(previousSurface, at, 0);
     float cosView = dot(receiver.surface.geoNormalWs, receiver.point.viewDirWs);
     bool same = sameDepth(surfaceDepthM(surface), before.depthM, cosView) &&
-                dot(surfaceNormalWs(surface), receiver.surface.normalWs) >= kSameNormal;
+                dot(surfaceNormalWs(surface), receiver.surface.normalWs) >= kLikeNormal;
     if (!same) return emptyLightReservoir();
     LightReservoir r = unpackLightReservoir(texelFetch(previousReservoirs, at, 0));
     r.count = min(r.count, how.mostHistory);
@@ -72,7 +70,7 @@ void main() {
         float sum = 0.0, target = 0.0;
         LightSample point = invalidSample(vec2(0.0));
         uint rays = 0u;
-        // The last turn of the loop is the frame before: each function has one call site (README, shaders).
+        // The last turn of the loop is the frame before: so each function has one call site, which compiles faster.
         for (uint i = 0u; i < how.candidates + (how.reuse != 0u ? 1u : 0u); ++i) {
             LightReservoir offered;
             if (i < how.candidates) {

@@ -20,7 +20,6 @@ layout(r32ui) writeonly uniform uimage2DArray rayResultsOut;
 layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
 
-const float kSameNormal = 0.9063; // 25 degrees
 const float kSameDepth = 0.1;     // of the depth
 
 // The j-th of the pixels whose reservoirs are asked; the 0-th is the pixel itself. False for another surface.
@@ -34,7 +33,7 @@ bool askedPixel(uvec2 pixel, Receiver receiver, uint seed, uint j, out uvec2 ask
     asked = uvec2(at);
     uvec4 surface = texelFetch(gSurface, at, 0);
     return abs(surfaceDepthM(surface) - receiver.depthM) <= kSameDepth * receiver.depthM &&
-           dot(surfaceNormalWs(surface), receiver.surface.normalWs) >= kSameNormal;
+           dot(surfaceNormalWs(surface), receiver.surface.normalWs) >= kLikeNormal;
 }
 
 void main() {
