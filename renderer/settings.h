@@ -1,6 +1,6 @@
 // The settings of a frame: one struct that code reads as plain, typed members, and one table that drives the
 // command line, JSON, presets and the window. A new setting is a member with its default here and its row in
-// settings.cpp; a member without a row does not compile.
+// settings_table.cpp; a member without a row does not compile.
 #pragma once
 
 #include "renderer/document/result.h"

@@ -1,5 +1,5 @@
 // The numbers that steer the denoiser, the anti-aliasing and the passage to the converged picture; settings
-// of the same names, see renderer/settings.cpp for ranges and defaults.
+// of the same names, see renderer/settings_table.cpp for ranges and defaults.
 #ifndef KILOLUX_SHARED_DENOISING_H
 #define KILOLUX_SHARED_DENOISING_H
 #include "base.h"

@@ -59,7 +59,7 @@ KX_CONST uint ENTRY_WINDOW = 8u;
 
 KX_CONST uint FRESH_LIGHTS = 8u;
 
-// Settings of the same names; see renderer/settings.cpp for ranges and defaults.
+// Settings of the same names; see renderer/settings_table.cpp for ranges and defaults.
 struct SamplingConstants {
     uint rays; // per pixel that is sampled
     uint
