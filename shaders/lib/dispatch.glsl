@@ -5,10 +5,15 @@
 #include "frame.glsl"
 #include "tile_order.glsl"
 
+uvec2 dispatchedPixelOf(uvec2 tiles) {
+    uvec2 tile = interleavedTile(gl_WorkGroupID.x, tiles, frame.tileChunks);
+    return tile * 8u + blockedPixel(gl_LocalInvocationIndex, 2u);
+}
+
 // Pixel of an invocation of an 8 x 8 workgroup in a one-dimensional dispatch over frame.tiles. May lie outside
 // the picture: such lanes stay alive for barriers and subgroup operations.
 uvec2 dispatchedPixel() {
-    return interleavedTile(gl_WorkGroupID.x, frame.tiles, frame.tileChunks) * 8u + gl_LocalInvocationID.xy;
+    return dispatchedPixelOf(frame.tiles);
 }
 
 bool isInPicture(uvec2 pixel) {

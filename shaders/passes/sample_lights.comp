@@ -15,7 +15,7 @@ void seeCandidate(Candidate c, float weight) {}
 void main() {
     bool atHalf = kHalfSampling != HALF_OFF;
     uvec2 tiles = atHalf ? (frame.tiles + 1u) / 2u : frame.tiles;
-    uvec2 pixel = interleavedTile(gl_WorkGroupID.x, tiles, frame.tileChunks) * 8u + gl_LocalInvocationID.xy;
+    uvec2 pixel = dispatchedPixelOf(tiles);
     if (any(greaterThanEqual(pixel, atHalf ? (frame.size + 1u) / 2u : frame.size))) return;
     uvec2 stored = pixel; // texel of the samples
     SamplingConstants how = frame.sampling;
