@@ -30,7 +30,7 @@ void main() {
         imageStore(viewportColorOut, at, vec4(storableLight(filtered), 0.0));
         return;
     }
-    float variance = 0.0, filteredVariance = 0.0, light = 0.0, taps = 0.0, here = luminance(filtered);
+    float variance = 0.0, filteredVariance = 0.0, light = 0.0, off = 0.0, taps = 0.0, here = luminance(filtered);
     bool knowsFiltered = textureSize(pixelMoments, 0) == textureSize(meanColor, 0);
     for (int y = -3; y <= 3; y += 3) {
         for (int x = -3; x <= 3; x += 3) {
@@ -38,6 +38,7 @@ void main() {
             vec2 moments = texelFetch(meanMoments, other, 0).xy;
             light += moments.x;
             variance += moments.y;
+            off += moments.x - luminance(texelFetch(filteredColor, other, 0).rgb);
             if (knowsFiltered) filteredVariance += square(texelFetch(pixelMoments, other, 0).y);
             taps += 1.0;
         }
@@ -50,6 +51,9 @@ void main() {
     vec2 own = texelFetch(meanMoments, at, 0).xy;
     float deviation = sqrt(max(own.y, variance / taps) / max(mean.a, 1.0)) + kDarkest * 0.1;
     float faulty = smoothstep(kFaultBegin, kFaultSure, abs(own.x - here) / deviation);
+    // The taps together know sooner: what a filter takes from a region, however dark, their sum tells from noise.
+    float deviationOfSum = sqrt(variance / max(mean.a, 1.0)) + kDarkest * 0.01 * taps;
+    faulty = max(faulty, smoothstep(kFaultBegin, kFaultSure, abs(off) / deviationOfSum));
     float trust = smoothstep(kFewFrames, kManyFrames, mean.a), share = max(max(settled, useless), faulty) * trust;
     vec3 color = mix(filtered, mean.rgb, share);
     imageStore(viewportColorOut, at, vec4(storableLight(color), share));
