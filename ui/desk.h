@@ -54,6 +54,7 @@ struct PanelVisibility {
     bool lights = true;
     bool properties = true;
     bool outlines = true; // of lights in the viewport
+    bool gizmos = true;   // and the dots of numbers
     bool operator==(const PanelVisibility&) const = default;
 };
 

@@ -239,7 +239,7 @@ void drawGizmos(Desk& desk, ImDrawList& canvas) {
     const std::optional<GizmoKind> kind = kindOf(desk.tool);
     state.hot = GizmoHandle::None;
     if (state.drag && gizmoPlace(desk).lights.empty()) cancelGizmoDrag(desk); // undone while it was dragged
-    if (!kind || gizmoPlace(desk).lights.empty()) return;
+    if (!kind || gizmoPlace(desk).lights.empty() || !desk.panels.gizmos) return;
     const double lengthPx = desk.gizmoSizePx * desk.uiScale;
     const ImGuiIO& io = ImGui::GetIO();
     const glm::dvec2 mouse(io.MousePos.x, io.MousePos.y);
@@ -279,7 +279,7 @@ nlohmann::json gizmoState(const Desk& desk) {
     json["outlines"] = state.outlines.outlines().size();
     const std::optional<GizmoKind> kind = kindOf(desk.tool);
     const GizmoPlace& place = gizmoPlace(desk);
-    if (!kind || place.lights.empty()) return json;
+    if (!kind || place.lights.empty() || !desk.panels.gizmos) return json;
     // Where a test finds each handle.
     const GizmoFrame frame = frameOf(desk, place, *kind);
     const double lengthM = desk.gizmoSizePx * desk.uiScale * desk.viewport.metresPerPixel(frame.originWs);

@@ -1,4 +1,4 @@
-// The handles of the selected light on the picture, and the drag of one.
+// The handles of the selected lights on the picture, and the drag of one, which changes them all.
 #pragma once
 
 #include "ui/desk.h"
@@ -14,8 +14,8 @@ struct HandleState {
     std::vector<LightHandle> handles; // of the frame being drawn
     int hot = -1;                     // under the pointer
     std::optional<HandleDrag> drag;
-    Scene dragStart; // the document when the drag began
-    std::uint64_t light = 0;
+    Scene dragStart;                    // the document when the drag began
+    std::vector<std::uint64_t> dragged; // lights that the drag changes
     std::string key, label;
     glm::dvec2 px{-1e9}; // where the pointer was when the document was changed last
     bool snaps = false;
@@ -26,7 +26,8 @@ struct HandleState {
 // Gives the drag of a handle up; false: there is none.
 bool cancelHandleDrag(Desk& desk);
 
-// For tests: where each dot is, and the label while one is dragged.
+// For tests: where each dot is, '<field>' of one light or '<light>.<field>' of several, and the label while
+// one is dragged.
 nlohmann::json handleOverlayState(const Desk& desk);
 
 } // namespace kilolux

@@ -23,6 +23,7 @@ constexpr KeyRow kRows[] = {
     {Tools, "X", "World or local axes", KeyAction::ToggleSpace, GLFW_KEY_X},
     {Tools, "=", "Larger gizmo", KeyAction::LargerGizmo, GLFW_KEY_EQUAL},
     {Tools, "-", "Smaller gizmo", KeyAction::SmallerGizmo, GLFW_KEY_MINUS},
+    {Tools, "G", "Gizmo and dots on or off", KeyAction::ToggleGizmos, GLFW_KEY_G},
     {Tools, "Ctrl", "Hold to snap while dragging"},
     {Tools, "Esc", "Cancel a drag or a choice, else select nothing", KeyAction::Cancel, GLFW_KEY_ESCAPE},
     {Lights, "Click, Shift+click", "Select, add to the selection or take away"},

@@ -15,6 +15,7 @@ enum class KeyAction : std::uint8_t {
     ToggleSpace,
     LargerGizmo,
     SmallerGizmo,
+    ToggleGizmos,
     Cancel,
     Mute,
     Solo,

@@ -22,10 +22,6 @@ constexpr double kMinTubeRadiusM = 0.001;
 
 using enum Quantity;
 
-bool hasDoors(const LightDef& def) {
-    return std::any_of(def.barnDoors.begin(), def.barnDoors.end(),
-                       [](const BarnDoor& door) { return door.lengthM > 0.0; });
-}
 bool hasProfile(const LightDef& def) {
     return !def.iesUri.empty();
 }
@@ -66,21 +62,21 @@ constexpr LightField kFields[] = {
     {LightSection::Shaping, "Door length", "barnDoorLengthM", Length, kRect, 0.005,
      "Of all four flaps; 0 is without doors"},
     {LightSection::Shaping, "Left flap", "barnDoorLeftAngleRad", Angle, kRect, 0.25 * kDegree,
-     "At local -X; 90\u00b0 is open", hasDoors},
+     "At local -X; 90\u00b0 is open"},
     {LightSection::Shaping, "Left length", "barnDoorLeftLengthM", Length, kRect, 0.005,
-     "0 is without this flap", hasDoors},
+     "0 is without this flap"},
     {LightSection::Shaping, "Right flap", "barnDoorRightAngleRad", Angle, kRect, 0.25 * kDegree,
-     "At local +X; 90\u00b0 is open", hasDoors},
+     "At local +X; 90\u00b0 is open"},
     {LightSection::Shaping, "Right length", "barnDoorRightLengthM", Length, kRect, 0.005,
-     "0 is without this flap", hasDoors},
+     "0 is without this flap"},
     {LightSection::Shaping, "Top flap", "barnDoorTopAngleRad", Angle, kRect, 0.25 * kDegree,
-     "At local +Y; 90\u00b0 is open", hasDoors},
+     "At local +Y; 90\u00b0 is open"},
     {LightSection::Shaping, "Top length", "barnDoorTopLengthM", Length, kRect, 0.005,
-     "0 is without this flap", hasDoors},
+     "0 is without this flap"},
     {LightSection::Shaping, "Bottom flap", "barnDoorBottomAngleRad", Angle, kRect, 0.25 * kDegree,
-     "At local -Y; 90\u00b0 is open", hasDoors},
+     "At local -Y; 90\u00b0 is open"},
     {LightSection::Shaping, "Bottom length", "barnDoorBottomLengthM", Length, kRect, 0.005,
-     "0 is without this flap", hasDoors},
+     "0 is without this flap"},
     {LightSection::Shaping, "Source texture", "sourceTexture", Number, kRect, 0.0,
      "A picture on its face, top towards local +Y"},
     {LightSection::Profile, "IES profile", "iesProfile", Number, kLocal, 0.0,
@@ -197,6 +193,19 @@ std::span<const LightField> lightFields() {
     return kFields;
 }
 
+std::optional<DoorNumbers> doorNumbersOf(const LightField& field) {
+    if (!std::string_view(field.field).starts_with("barnDoor")) return std::nullopt;
+    return findLightField(field.field)->isShorthand ? DoorNumbers::OnePair : DoorNumbers::FourFlaps;
+}
+
+bool doorsAreEven(const Scene& scene, std::span<const std::uint64_t> lights) {
+    return std::all_of(lights.begin(), lights.end(), [&](std::uint64_t light) {
+        const auto& doors = defOf(scene, light).barnDoors;
+        return std::all_of(doors.begin() + 1, doors.end(),
+                           [&](const BarnDoor& door) { return door == doors[0]; });
+    });
+}
+
 bool allHave(const Scene& scene, std::span<const std::uint64_t> lights, const LightField& field) {
     return std::all_of(lights.begin(), lights.end(), [&](std::uint64_t light) {
         const LightDef& def = defOf(scene, light);
@@ -283,6 +292,19 @@ Result<Edits> editsForValue(const Scene& scene, std::span<const std::uint64_t> l
     } else {
         for (const Target& target : targetsOf(scene, lights, sharing))
             builder.set(EditTarget::Light, target.light, field, value, target.sharing);
+    }
+    return builder.finish();
+}
+
+Result<Edits> editsForEvenDoors(const Scene& scene, std::span<const std::uint64_t> lights, Sharing sharing) {
+    ChangeBuilder builder(scene);
+    for (const Target& target : targetsOf(scene, lights, sharing)) {
+        const auto& doors = defOf(scene, target.light).barnDoors;
+        const BarnDoor& longest =
+            *std::max_element(doors.begin(), doors.end(),
+                              [](const BarnDoor& a, const BarnDoor& b) { return a.lengthM < b.lengthM; });
+        builder.set(EditTarget::Light, target.light, "barnDoorAngleRad", longest.angleRad, target.sharing);
+        builder.set(EditTarget::Light, target.light, "barnDoorLengthM", longest.lengthM, target.sharing);
     }
     return builder.finish();
 }

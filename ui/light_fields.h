@@ -32,6 +32,12 @@ struct LightField {
 };
 std::span<const LightField> lightFields();
 
+// Barn doors have two numbers for all four flaps, or two for each.
+enum class DoorNumbers : std::uint8_t { OnePair, FourFlaps };
+std::optional<DoorNumbers> doorNumbersOf(const LightField& field); // absent: none of doors
+// Whether one pair of numbers says all there is about the flaps of these lights.
+bool doorsAreEven(const Scene& scene, std::span<const std::uint64_t> lights);
+
 // Whether all these lights have the field, and it does something there.
 bool allHave(const Scene& scene, std::span<const std::uint64_t> lights, const LightField& field);
 
@@ -60,6 +66,9 @@ Result<Edits> editsForSize(const Scene& scene, const Scene& from, std::span<cons
 // Any other field of lights or their definitions.
 Result<Edits> editsForValue(const Scene& scene, std::span<const std::uint64_t> lights, std::string_view field,
                             const EditValue& value, Sharing sharing);
+
+// Makes the flaps of each light alike, as its longest one.
+Result<Edits> editsForEvenDoors(const Scene& scene, std::span<const std::uint64_t> lights, Sharing sharing);
 
 // Several lights get the name with numbers behind it.
 Result<Edits> editsForName(const Scene& scene, std::span<const std::uint64_t> lights,

@@ -20,14 +20,14 @@ struct Builder {
 
     // `share`: of the value, how far the dot moves: a half for sizes about the middle.
     void line(const char* field, double value, const glm::dvec3& from, const glm::dvec3& dir, double share) {
-        LightHandle handle{field, value};
+        LightHandle handle{field, value, 0};
         handle.originWs = at(from + frame.gapM * dir);
         handle.alongWs = share * (frame.axes * dir);
         handles.push_back(handle);
     }
     void arc(const char* field, double value, const glm::dvec3& center, const glm::dvec3& along,
              const glm::dvec3& across) {
-        LightHandle handle{field, value, true};
+        LightHandle handle{field, value, 0, true};
         handle.originWs = at(center);
         handle.alongWs = frame.axes * along;
         handle.acrossWs = frame.axes * across;
@@ -36,15 +36,17 @@ struct Builder {
     }
 };
 
+struct FlapFields {
+    const char *angle, *length;
+};
+constexpr FlapFields kFlapFields[] = {{"barnDoorLeftAngleRad", "barnDoorLeftLengthM"},
+                                      {"barnDoorRightAngleRad", "barnDoorRightLengthM"},
+                                      {"barnDoorTopAngleRad", "barnDoorTopLengthM"},
+                                      {"barnDoorBottomAngleRad", "barnDoorBottomLengthM"}};
+constexpr FlapFields kPairFields{"barnDoorAngleRad", "barnDoorLengthM"};
+
 // The angle at the middle of the free edge, the length at a quarter of it.
-void addFlap(Builder& builder, const LightDef& def, std::size_t side) {
-    struct Names {
-        const char *angle, *length;
-    };
-    constexpr Names kNames[] = {{"barnDoorLeftAngleRad", "barnDoorLeftLengthM"},
-                                {"barnDoorRightAngleRad", "barnDoorRightLengthM"},
-                                {"barnDoorTopAngleRad", "barnDoorTopLengthM"},
-                                {"barnDoorBottomAngleRad", "barnDoorBottomLengthM"}};
+void addFlap(Builder& builder, const LightDef& def, std::size_t side, const FlapFields& fields) {
     const BarnDoor& door = def.barnDoors[side];
     const auto corners = barnDoorCorners(def, BarnDoorSide(side));
     const glm::dvec3 hinge = 0.5 * (corners[0] + corners[1]), edge = 0.5 * (corners[1] - corners[0]);
@@ -52,19 +54,21 @@ void addFlap(Builder& builder, const LightDef& def, std::size_t side) {
         side < 2 ? glm::dvec3(hinge.x > 0.0 ? 1 : -1, 0, 0) : glm::dvec3(0, hinge.y > 0.0 ? 1 : -1, 0);
     const glm::dvec3 ahead(0, 0, -1);
     const glm::dvec3 flapDir = std::sin(door.angleRad) * out + std::cos(door.angleRad) * ahead;
-    builder.line(kNames[side].length, door.lengthM, hinge + 0.5 * edge, flapDir, 1.0);
+    builder.line(fields.length, door.lengthM, hinge + 0.5 * edge, flapDir, 1.0);
     if (door.lengthM > 0.0)
-        builder.arc(kNames[side].angle, door.angleRad, hinge, (door.lengthM + builder.frame.gapM) * ahead,
+        builder.arc(fields.angle, door.angleRad, hinge, (door.lengthM + builder.frame.gapM) * ahead,
                     (door.lengthM + builder.frame.gapM) * out);
 }
 
-void addRect(Builder& builder, const LightDef& def) {
+void addRect(Builder& builder, const LightDef& def, DoorNumbers doors) {
     // At corners, so that flaps and arrows keep the middles.
     const glm::dvec3 left(-1, 0, 0), down(0, -1, 0);
     builder.line("widthM", def.widthM, glm::dvec3(0, 0.5 * def.heightM, 0), left, 0.5);
     builder.line("heightM", def.heightM, glm::dvec3(-0.5 * def.widthM, 0, 0), down, 0.5);
+    if (doors == DoorNumbers::OnePair)
+        return addFlap(builder, def, std::size_t(BarnDoorSide::Top), kPairFields);
     for (std::size_t side = 0; side < 4; ++side)
-        addFlap(builder, def, side);
+        addFlap(builder, def, side, kFlapFields[side]);
 }
 
 } // namespace
@@ -73,7 +77,7 @@ glm::dvec3 LightHandle::pointAt(double v) const {
     return isArc ? originWs + std::cos(v) * alongWs + std::sin(v) * acrossWs : originWs + v * alongWs;
 }
 
-std::vector<LightHandle> handlesOf(const LightDef& def, const HandleFrame& frame) {
+std::vector<LightHandle> handlesOf(const LightDef& def, const HandleFrame& frame, DoorNumbers doors) {
     Builder builder{frame, {}};
     const glm::dvec3 left(-1, 0, 0), down(0, -1, 0), ahead(0, 0, -1);
     switch (def.type) {
@@ -92,7 +96,7 @@ std::vector<LightHandle> handlesOf(const LightDef& def, const HandleFrame& frame
         builder.line("radiusM", def.radiusM, {}, down, 1.0);
         break;
     case LightType::Rect:
-        addRect(builder, def);
+        addRect(builder, def, doors);
         break;
     case LightType::Disk:
         builder.line("widthM", def.widthM, {}, left, 0.5);

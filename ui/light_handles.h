@@ -23,6 +23,7 @@ struct HandleFrame {
 struct LightHandle {
     const char* field; // of lightFields()
     double value = 0.0;
+    std::uint64_t light = 0; // whose it is, for who shows several
     bool isArc = false;
     glm::dvec3 originWs{0.0};
     // Line: where value 0 is, and what a unit of the value moves by. Arc: `along` where the angle is 0 and
@@ -34,7 +35,8 @@ struct LightHandle {
     glm::dvec3 pointWs() const { return pointAt(value); }
 };
 
-std::vector<LightHandle> handlesOf(const LightDef& def, const HandleFrame& frame);
+// With one pair of numbers for all flaps of the doors their dots stand at the upper one.
+std::vector<LightHandle> handlesOf(const LightDef& def, const HandleFrame& frame, DoorNumbers doors);
 
 // The handle within reach of the pointer, the nearest; -1: none.
 int handleAt(std::span<const LightHandle> handles, const Viewport& viewport, glm::dvec2 px, double reachPx);

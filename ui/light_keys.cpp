@@ -63,6 +63,9 @@ void act(Desk& desk, KeyAction action) {
     case KeyAction::SmallerGizmo:
         desk.gizmoSizePx = std::max(desk.gizmoSizePx / kGizmoStep, kGizmoSizePx.least);
         break;
+    case KeyAction::ToggleGizmos:
+        desk.panels.gizmos = !desk.panels.gizmos;
+        break;
     case KeyAction::Cancel:
         cancel(desk);
         break;

@@ -29,6 +29,12 @@ std::vector<std::string> wordsOf(std::string_view text) {
     return words;
 }
 
+bool hasAll(std::string_view loweredText, std::span<const std::string> words) {
+    return std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+        return loweredText.find(word) != std::string_view::npos;
+    });
+}
+
 std::vector<std::uint64_t> sortedUnique(std::vector<std::uint64_t> ids) {
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
@@ -51,6 +57,10 @@ void appendRow(const Scene& scene, const LightRow& row, std::vector<std::uint64_
 }
 
 } // namespace
+
+bool containsWords(std::string_view text, std::string_view search) {
+    return hasAll(lowered(text), wordsOf(search));
+}
 
 std::string naturalKey(std::string_view text) {
     std::string key;
@@ -114,10 +124,7 @@ std::vector<int> LightListModel::filteredAndSorted() const {
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const Entry& entry = entries_[i];
         if (query_.types != 0 && !(query_.types & (1u << unsigned(entry.type)))) continue;
-        const bool found = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-            return entry.text.find(word) != std::string::npos;
-        });
-        if (found) order.push_back(int(i));
+        if (hasAll(entry.text, words)) order.push_back(int(i));
     }
     const auto sortBy = [&](auto key) {
         // Equal ones keep the order of the file either way.

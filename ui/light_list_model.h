@@ -64,6 +64,9 @@ class LightListModel {
     int shown_ = 0;
 };
 
+// Whether all words of a search are part of a text, whatever their case.
+bool containsWords(std::string_view text, std::string_view search);
+
 // Sorts numbers in text by their value, letters whatever their case.
 std::string naturalKey(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include "ui/light_actions.h"
 #include "ui/light_commands.h"
 #include "ui/light_place.h"
+#include "ui/mesh_rows.h"
 #include "ui/panels.h"
 #include "ui/property_rows.h"
 #include "ui/shaping_rows.h"
@@ -37,17 +38,20 @@ void refresh(Desk& desk, PropertiesState& state) {
     state.values.clear();
     state.coordinates = {};
     state.applies.clear();
+    const DoorNumbers doors = doorNumbers(desk, state.selection);
     for (const LightField& field : lightFields())
-        state.applies.push_back(allHave(scene, state.selection, field));
+        state.applies.push_back(allHave(scene, state.selection, field) &&
+                                doorNumbersOf(field).value_or(doors) == doors);
+    countMeshes(desk);
     state.othersSharing = othersSharing(scene, state.selection);
     if (!state.selection.empty())
         state.eulerRad = eulerFrom(rotationOf(scene, state.selection.front()), state.eulerRad);
 }
 
-bool beginSection(Desk& desk, const char* name) {
+bool beginSection(Desk& desk, const char* name, ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_DefaultOpen) {
     ImGui::Dummy({0, px(desk, 2)});
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetColorU32(ImGuiCol_TableHeaderBg));
-    const bool open = ImGui::CollapsingHeader(name, ImGuiTreeNodeFlags_DefaultOpen);
+    const bool open = ImGui::CollapsingHeader(name, flags);
     ImGui::PopStyleColor();
     mark(desk, std::string("section.") + name);
     return open;
@@ -129,8 +133,12 @@ void drawGroupChoice(Desk& desk, PropertiesState& state) {
 
 void drawTable(Desk& desk, PropertiesState& state, LightSection section) {
     const auto fields = lightFields();
-    for (std::size_t i = 0; i < fields.size(); ++i)
-        if (fields[i].section == section && state.applies[i]) drawFieldRow(desk, fields[i]);
+    bool hasDoors = false;
+    for (std::size_t i = 0; i < fields.size(); ++i) {
+        if (fields[i].section != section || !state.applies[i]) continue;
+        if (!hasDoors && doorNumbersOf(fields[i])) drawDoorSwitch(desk), hasDoors = true;
+        drawFieldRow(desk, fields[i]);
+    }
 }
 
 bool hasAny(const PropertiesState& state, LightSection section) {
@@ -186,10 +194,12 @@ void drawSections(Desk& desk, PropertiesState& state) {
     if (beginSection(desk, "Visibility")) {
         drawVisibility(desk, state);
         drawTable(desk, state, LightSection::Visibility);
+        drawReach(desk);
     }
     const CommonValue group = valueOf(desk, "group");
     const std::uint64_t id = std::get<std::uint64_t>(group.value);
     if (!group.mixed && id != 0 && beginSection(desk, "Group")) drawGroupRows(desk, id);
+    if (beginSection(desk, "Meshes", ImGuiTreeNodeFlags_None)) drawMeshRows(desk);
 }
 
 } // namespace
@@ -202,6 +212,11 @@ PropertiesState& propertiesOf(Desk& desk) {
 Sharing sharingOf(const Desk& desk) {
     const bool about = desk.properties && desk.properties->selection == desk.selection;
     return about ? desk.properties->sharing : Sharing::MakeUnique;
+}
+
+DoorNumbers doorNumbers(Desk& desk, std::span<const std::uint64_t> lights) {
+    const bool even = doorsAreEven(desk.session->scene(), lights);
+    return even && !propertiesOf(desk).wantsFlaps ? DoorNumbers::OnePair : DoorNumbers::FourFlaps;
 }
 
 bool cancelPropertyDrag(Desk& desk) {
@@ -225,6 +240,7 @@ void drawProperties(Desk& desk) {
             "adds one; F1 shows all keys.");
         ImGui::PopTextWrapPos();
         if (beginSection(desk, "Dome and fill")) drawDomeRows(desk);
+        if (beginSection(desk, "Meshes")) drawMeshRows(desk);
         return;
     }
     drawName(desk, state);

@@ -215,8 +215,34 @@ std::optional<glm::dvec3> colorField(Desk& desk, const std::string& id, const Co
     return typed.value();
 }
 
+// Where profiles bring their own candela the light's intensity says nothing: theirs is shown instead.
+bool drawProfileIntensity(Desk& desk) {
+    const Scene& scene = desk.session->scene();
+    const auto usesProfile = [&](std::uint64_t light) {
+        const LightDef& def = defOf(scene, light);
+        return isShapedByProfile(def) && def.iesIntensity;
+    };
+    if (!std::all_of(desk.selection.begin(), desk.selection.end(), usesProfile)) return false;
+    const auto candelaOf = [&](std::uint64_t light) { return baseIntensity(defOf(scene, light)); };
+    const double first = candelaOf(desk.selection.front());
+    const bool mixed = std::any_of(desk.selection.begin(), desk.selection.end(),
+                                   [&](std::uint64_t light) { return candelaOf(light) != first; });
+    const char* help =
+        "The profile's own, at its brightest. The multiplier below 'Profile' changes it; without "
+        "'Its intensity' the light has one of its own again";
+    rowLabel(desk, "Intensity", help);
+    ImGui::TextDisabled(
+        "%s",
+        mixed ? "of the profiles, mixed"
+              : fmt::format("{} cd, of the profile", formatQuantity(first, Quantity::Intensity, 5)).c_str());
+    mark(desk, "intensity.profile");
+    tooltip(help);
+    return true;
+}
+
 void drawNumberRow(Desk& desk, const LightField& row) {
     PropertiesState& state = propertiesOf(desk);
+    if (row.quantity == Quantity::Intensity && drawProfileIntensity(desk)) return;
     const bool isIntensity = row.quantity == Quantity::Intensity;
     const CommonValue value = valueOf(desk, row.field);
     const CommonValue unit = isIntensity ? valueOf(desk, "unit") : CommonValue{LightUnit::Candela, false};
@@ -244,6 +270,18 @@ void drawNumberRow(Desk& desk, const LightField& row) {
     if (applyEdits(desk, edits, stepName(desk, row.label), dragged ? dragKey(state) : "") && dragged &&
         !edits.value().empty())
         noteDragged(desk);
+}
+
+void drawOwnFlag(Desk& desk, const Owner& owner, const char* label, const char* name, const char* help) {
+    const EditField& field = *findEditField(owner.target, name);
+    const Scene& scene = desk.session->scene();
+    bool on = std::get<bool>(field.get(scene, owner.id));
+    rowLabel(desk, label, help);
+    const bool pressed = ImGui::Checkbox(fmt::format("##{}", name).c_str(), &on);
+    mark(desk, owner.prefix() + name);
+    if (pressed)
+        applyEdits(desk, setField(scene, owner.target, owner.id, field, on),
+                   fmt::format("{} {}", owner.word, withinSentence(label)));
 }
 
 // The same for a colour.
@@ -342,6 +380,7 @@ void drawDomeRows(Desk& desk) {
                   "Luminance all around, or of a pixel of value 1; 0 is without");
     drawOwnColor(desk, owner, "Colour", "domeColor", "On the picture as well");
     drawOwnNumber(desk, owner, "Turn", "domeRotationRad", Quantity::Angle, glm::radians(0.5), "About +Y");
+    drawOwnFlag(desk, owner, "In the picture", "domeVisible", "Seen behind the scene, where nothing else is");
     const Owner fill{EditTarget::Scene, 0, "Fill"};
     drawOwnNumber(desk, fill, "Fill  nit", "fillNit", Quantity::Number, 0.1,
                   "A plain ambient light without shadows, for context only");

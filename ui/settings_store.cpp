@@ -29,6 +29,7 @@ void visit(Io& io, Remembered& r) {
     io("lights", r.panels.lights);
     io("properties", r.panels.properties);
     io("outlines", r.panels.outlines);
+    io("gizmos", r.panels.gizmos);
     io("snapAlways", r.snapping.always);
     io("snapMoveM", r.snapping.moveM, 1e-4, 100.0);
     io("snapAngleDeg", r.snapping.angleDeg, 0.01, 180.0);

@@ -9,6 +9,7 @@
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -24,6 +25,19 @@ void setAll(Desk& desk, const LightField& row, const EditValue& value) {
 std::string sentence(std::string word) {
     if (!word.empty() && word[0] >= 'a' && word[0] <= 'z') word[0] = char(word[0] - 32);
     return word;
+}
+
+// One of several side by side, amber when it holds.
+bool choiceButton(Desk& desk, const std::string& name, const char* text, float widthPx, bool on) {
+    for (const ImGuiCol part : {ImGuiCol_Button, ImGuiCol_ButtonHovered, ImGuiCol_ButtonActive}) {
+        const ImGuiCol off = part == ImGuiCol_Button ? ImGuiCol_FrameBg : part;
+        ImGui::PushStyleColor(part, on ? theme::kAccent : ImGui::GetColorU32(off));
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, on ? IM_COL32(20, 20, 20, 255) : theme::kDim);
+    const bool pressed = ImGui::Button(fmt::format("{}##{}", text, name).c_str(), {widthPx, 0});
+    ImGui::PopStyleColor(4);
+    mark(desk, name);
+    return pressed;
 }
 
 } // namespace
@@ -66,12 +80,9 @@ std::optional<std::uint64_t> channelButtons(Desk& desk, const std::string& name,
     for (int i = 0; i < 8; ++i) {
         if (i > 0) ImGui::SameLine(0, gap);
         const bool on = !value.mixed && (bits >> i & 1);
-        ImGui::PushStyleColor(ImGuiCol_Button, on ? theme::kAccent : ImGui::GetColorU32(ImGuiCol_FrameBg));
-        ImGui::PushStyleColor(ImGuiCol_Text, on ? IM_COL32(20, 20, 20, 255) : theme::kDim);
-        if (ImGui::Button(fmt::format("{}##{}", i + 1, name).c_str(), {each, 0}))
+        const char digit[] = {char('1' + i), '\0'};
+        if (choiceButton(desk, fmt::format("{}.{}", name, i + 1), digit, each, on))
             wanted = (value.mixed ? 0 : bits) ^ (std::uint64_t{1} << i);
-        ImGui::PopStyleColor(2);
-        mark(desk, fmt::format("{}.{}", name, i + 1));
     }
     return wanted;
 }
@@ -128,7 +139,7 @@ void drawFileRow(Desk& desk, const LightField& row) {
 
 void drawPresetRow(Desk& desk) {
     ImGui::SetNextItemWidth(rowLabel(desk, "Preset", "Lumens, temperature, size and profile of a luminaire"));
-    if (!ImGui::BeginCombo("##preset", "Choose")) return mark(desk, "preset");
+    if (!beginCombo("##preset", "Choose")) return mark(desk, "preset");
     const Luminaire* chosen = nullptr;
     for (const Luminaire& each : luminaires()) {
         if (ImGui::Selectable(each.name)) chosen = &each;
@@ -144,6 +155,25 @@ void drawPresetRow(Desk& desk) {
     applyEdits(
         desk, editsForLuminaire(desk.session->scene(), desk.selection, *chosen, uri.value(), sharingOf(desk)),
         fmt::format("{} for {}", chosen->name, countedLights(desk.selection.size())));
+}
+
+void drawDoorSwitch(Desk& desk) {
+    PropertiesState& state = propertiesOf(desk);
+    const bool isPair = doorNumbers(desk, desk.selection) == DoorNumbers::OnePair;
+    const float width = rowLabel(desk, "Doors", "One angle and length for all flaps, or each its own");
+    const float gap = px(desk, 2), each = std::floor((width - gap) / 2.0f);
+    if (choiceButton(desk, "doors.pair", "One pair", each, isPair) && !isPair) {
+        state.wantsFlaps = false;
+        applyEdits(desk, editsForEvenDoors(desk.session->scene(), desk.selection, sharingOf(desk)),
+                   fmt::format("Even doors of {}", countedLights(desk.selection.size())));
+        state.version = 0;
+    }
+    tooltip("Makes all flaps as the longest one");
+    ImGui::SameLine(0, gap);
+    if (choiceButton(desk, "doors.flaps", "Four flaps", each, !isPair) && isPair) {
+        state.wantsFlaps = true;
+        state.version = 0; // to be read again
+    }
 }
 
 } // namespace kilolux

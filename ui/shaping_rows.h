@@ -9,7 +9,8 @@ void drawFlagRow(Desk& desk, const LightField& row);
 void drawWordRow(Desk& desk, const LightField& row);
 void drawChannelsRow(Desk& desk, const LightField& row);
 void drawFileRow(Desk& desk, const LightField& row);
-void drawPresetRow(Desk& desk); // named luminaires
+void drawPresetRow(Desk& desk);  // named luminaires
+void drawDoorSwitch(Desk& desk); // one pair or four flaps
 
 // Eight buttons, one a channel, named '<name>.1' and so on for tests; the bits after one was pressed.
 std::optional<std::uint64_t> channelButtons(Desk& desk, const std::string& name, const CommonValue& value,

@@ -29,6 +29,7 @@ inline constexpr const char* kSelect = "\uf245";
 inline constexpr const char* kMove = "\uf047";
 inline constexpr const char* kRotate = "\uf021";
 inline constexpr const char* kScale = "\uf065";
+inline constexpr const char* kGizmos = "\uf05b";
 inline constexpr const char* kSnap = "\uf076";
 inline constexpr const char* kEye = "\uf06e";
 inline constexpr const char* kEyeOff = "\uf070";

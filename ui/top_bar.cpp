@@ -93,6 +93,7 @@ void drawPanels(Desk& desk) {
     };
     ImGui::NewLine();
     ImGui::SameLine(0, 0);
+    toggle("top.gizmos", theme::kGizmos, "Gizmo and dots of the selected lights (G)", desk.panels.gizmos);
     toggle("top.outlines", theme::kLight, "Outlines of lights", desk.panels.outlines);
     toggle("top.lights", theme::kGroup, "Column of lights", desk.panels.lights);
     toggle("top.properties", theme::kSliders, "Column of properties", desk.panels.properties);
@@ -112,8 +113,8 @@ void drawTopBar(Desk& desk) {
     if (!desk.session) return;
     if (width > px(desk, 660)) gap(desk), drawExposure(desk);
     if (width > px(desk, 720)) gap(desk), drawCameraMenu(desk);
-    if (width < px(desk, 820)) return;
-    ImGui::SameLine(width - px(desk, 120));
+    if (width < px(desk, 852)) return;
+    ImGui::SameLine(width - px(desk, 152));
     drawPanels(desk);
 }
 

@@ -58,6 +58,10 @@ class Shaping(LightCase):
             return extras[pair]
         return words.get(field)
 
+    def click(self, place):
+        self.reach(place)
+        self.window.click(place)
+
     def drag_dot(self, field, center, **how):
         start = self.dots()[field]
         before = self.window.state()["document"]["version"]
@@ -69,6 +73,8 @@ class Shaping(LightCase):
         window = self.open()
         for light, (name, fields) in HANDLES.items():
             center = self.begin(light)
+            if light == 4:
+                self.click("doors.flaps")
             self.assertEqual(sorted(self.dots()), sorted(fields), name)
             for field in fields:
                 before = self.value(name, field)
@@ -117,8 +123,14 @@ class Shaping(LightCase):
         window.click("profiles.globe.ies")
         window.wait_place("profiles.plot")
         window.settle()
+        self.assertIn("intensity", window.state()["places"])
         window.click("profiles.use")
         window.wait(lambda s: s["document"]["undo"].startswith("IES profile"), "the profile to be used")
+        # Its candela stand in place of the light's own, until the light is to have one again.
+        window.wait(lambda s: "intensity.profile" in s["places"] and "intensity" not in s["places"], "its candela")
+        self.click("iesIntensity")
+        window.wait(lambda s: "intensity.profile" not in s["places"] and "intensity" in s["places"], "the light's own")
+        self.step("z", what="undo")
         document = self.save()
         node = next(n for n in document["nodes"] if n["name"] == "Bulb")
         self.assertIn("EXT_lights_ies", node["extensions"])
@@ -142,6 +154,68 @@ class Shaping(LightCase):
         window.click("channels.3")
         window.wait(lambda s: s["document"]["undo"].startswith("Channels"), "the channel")
         self.assertEqual(self.light("Ring")[1]["channels"], 5)
+
+    def test_doors_are_one_pair_or_four_flaps(self):
+        window = self.open()
+        center = self.begin(4)
+        pair = {"barnDoorAngleRad", "barnDoorLengthM"}
+        self.assertEqual(set(self.dots()), {"widthM", "heightM"} | pair)
+        self.drag_dot("barnDoorAngleRad", center)
+        window.wait(lambda s: not s["handles"].get("label"), "the dot to be let go")
+        angle = self.value("Window", "barnDoorAngleRad")
+        self.assertNotAlmostEqual(angle, 0.7, delta=0.01)
+        self.click("doors.flaps")
+        window.wait(lambda s: "barnDoorLeftAngleRad" in s["places"] and not pair & set(s["places"]), "a row for each flap")
+        self.enter("barnDoorLeftAngleRad", "20")
+        self.enter("barnDoorTopLengthM", "0.5")
+        _, extras = self.light("Window")
+        self.assertAlmostEqual(extras["barnDoorLeftAngleRad"], 0.3490658503988659)
+        self.assertEqual(extras["barnDoorTopLengthM"], 0.5)
+        # Flaps that differ cannot stand as one pair: the longest one says what all become.
+        self.click("doors.pair")
+        window.wait(lambda s: pair <= set(s["places"]), "one pair of rows")
+        _, extras = self.light("Window")
+        self.assertEqual({name for name in extras if name.startswith("barnDoor")}, pair)
+        self.assertEqual((extras["barnDoorAngleRad"], extras["barnDoorLengthM"]), (angle, 0.5))
+
+    def test_dots_of_several_lights_move_together_and_can_be_put_away(self):
+        window = self.open()
+        self.begin(1)
+        self.pick(1, 2)
+        self.assertEqual(set(self.dots()), {f"{light}.{field}" for light in (1, 2) for field in ("radiusM", "rangeM")})
+        start = self.dots()["2.rangeM"]
+        window.drag(start, (start[0] + 40, start[1] + 30))
+        window.wait(lambda s: s["document"]["undo"] == "Range of 2 lights", "both ranges to be dragged")
+        bulb, spot = self.value("Bulb", "rangeM"), self.value("Spot", "rangeM")
+        self.assertGreater(abs(bulb - 1.0), 0.02)
+        self.assertAlmostEqual(bulb - 1.0, spot - 1.5, places=6)
+        window.key("g")
+        window.wait(lambda s: not s["handles"]["dots"], "the dots to be put away")
+        self.tool("w", 1)
+        self.assertNotIn("handles", window.state()["gizmo"])
+        window.click("top.gizmos")
+        window.wait(lambda s: s["handles"]["dots"] and s["gizmo"].get("handles"), "dots and gizmo")
+        self.step("z", what="undo")
+        self.save()
+        with open(self.path, "rb") as file:
+            self.assertEqual(file.read(), self.original)
+
+    def test_channels_of_meshes_and_rows_of_the_dome(self):
+        window = self.open()
+        window.wait_place("mesh.search")
+        self.click("mesh.0.3")
+        window.wait(lambda s: s["document"]["undo"] == "Channels of Floor", "the mesh's channel")
+        self.click("scene.domeVisible")
+        window.wait(lambda s: s["document"]["undo"] == "Dome in the picture", "the dome to be hidden")
+        self.enter("scene.domeNit", "30")
+        self.enter("scene.fillNit", "2")
+        self.enter("scene.domeRotationRad", "90")
+        document = self.save()
+        floor = next(n for n in document["nodes"] if n["name"] == "Floor")
+        self.assertEqual(floor["extras"]["kilolux"]["meshChannels"], 5)
+        dome = document["scenes"][0]["extras"]["kilolux"]
+        self.assertEqual((dome["domeVisible"], dome["domeNit"], dome["fillNit"]), (False, 30, 2))
+        self.assertAlmostEqual(dome["domeRotationRad"], 1.5707963267948966)
 
 
 if __name__ == "__main__":

@@ -49,12 +49,27 @@ TEST(LightHandles, EveryTypeHasThoseOfItsNumbers) {
         LightDef def = doored();
         def.type = type;
         std::set<std::string> found;
-        for (const LightHandle& handle : handlesOf(def, frame())) {
+        for (const LightHandle& handle : handlesOf(def, frame(), DoorNumbers::FourFlaps)) {
             found.insert(handle.field);
             EXPECT_NE(rowOf(handle.field, type).types & typeBit(type), 0u) << handle.field;
         }
         EXPECT_EQ(found, fields);
     }
+}
+
+// One pair of numbers has one pair of dots, which move as those of the flap that they stand at.
+TEST(LightHandles, OnePairOfDoorsHasOnePairOfDots) {
+    const LightDef def = doored();
+    std::map<std::string, LightHandle> pair, flaps;
+    for (const LightHandle& handle : handlesOf(def, frame(), DoorNumbers::OnePair))
+        pair.emplace(handle.field, handle);
+    for (const LightHandle& handle : handlesOf(def, frame(), DoorNumbers::FourFlaps))
+        flaps.emplace(handle.field, handle);
+    EXPECT_EQ(pair.size() + 6, flaps.size());
+    EXPECT_EQ(pair.at("barnDoorAngleRad").pointAt(0.2), flaps.at("barnDoorTopAngleRad").pointAt(0.2));
+    EXPECT_EQ(pair.at("barnDoorLengthM").pointAt(0.7), flaps.at("barnDoorTopLengthM").pointAt(0.7));
+    for (const auto& [field, handle] : pair)
+        EXPECT_EQ(rowOf(field, def.type).field, field);
 }
 
 // Dragged to where the dot of another value would be, a handle asks for that value; from anywhere on the dot.
@@ -68,7 +83,7 @@ TEST(LightHandles, ADragEndsAtTheValueUnderThePointer) {
         def.innerConeRad = 0.2;
         def.outerConeRad = 0.5;
         const Viewport viewport = viewportAt({2.6, 2.3, 3.1}, {0.3, 1.0, -0.2});
-        for (const LightHandle& handle : handlesOf(def, frame())) {
+        for (const LightHandle& handle : handlesOf(def, frame(), DoorNumbers::FourFlaps)) {
             const double wanted = handle.isArc ? handle.value + 0.25 : 1.5 * handle.value + 0.1;
             const auto from = viewport.project(handle.pointWs()),
                        to = viewport.project(handle.pointAt(wanted));
@@ -91,7 +106,7 @@ TEST(LightHandles, ViewsFromTheEdgeGiveNumbers) {
     for (const glm::dvec3& eye :
          {glm::dvec3(0.3, 1.0, 4.0), glm::dvec3(0.3, 5.0, -0.19), glm::dvec3(5.0, 1.0, -0.2)}) {
         const Viewport viewport = viewportAt(eye, {0.3, 1.0, -0.2});
-        for (const LightHandle& handle : handlesOf(def, frame())) {
+        for (const LightHandle& handle : handlesOf(def, frame(), DoorNumbers::FourFlaps)) {
             const auto dot = viewport.project(handle.pointWs());
             if (!dot) continue;
             const HandleDrag drag(handle, viewport, *dot);
@@ -103,7 +118,7 @@ TEST(LightHandles, ViewsFromTheEdgeGiveNumbers) {
 
 TEST(LightHandles, TheNearestWithinReachIsTaken) {
     const Viewport viewport = viewportAt({2.6, 2.3, 3.1}, {0.3, 1.0, -0.2});
-    const std::vector<LightHandle> handles = handlesOf(doored(), frame());
+    const std::vector<LightHandle> handles = handlesOf(doored(), frame(), DoorNumbers::FourFlaps);
     for (std::size_t i = 0; i < handles.size(); ++i) {
         const auto dot = viewport.project(handles[i].pointWs());
         ASSERT_TRUE(dot);

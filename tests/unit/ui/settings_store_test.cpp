@@ -25,7 +25,7 @@ Remembered everythingChanged() {
     r.uiScale = 1.75;
     r.leftWidth = 301.5;
     r.rightWidth = 402.5;
-    r.panels = {false, false, false, false};
+    r.panels = {false, false, false, false, false};
     r.snapping = {true, 0.25, 7.5, 0.5};
     r.gizmoSizePx = 120.0;
     r.limits = {55.0, 0.45, 12, 123'456, 7.5, 333.0};
