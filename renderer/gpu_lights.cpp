@@ -190,7 +190,8 @@ double deriveExposureEv100(const Scene& scene) {
         const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
         shared::LightHot hot = makeHot(def, light, world, glm::dvec3(0.0), def.rangeM);
         hot.intensity *= glm::vec3(groupFactor(scene, light));
-        hot.typeFlags |= addShaping(tables, def, world, glm::dvec3(0.0), 0.0) << shared::LIGHT_SHAPING_SHIFT;
+        hot.typeFlags |= addShaping(tables, def, world, glm::dvec3(0.0), 0.0, {})
+                         << shared::LIGHT_SHAPING_SHIFT;
         lights.push_back(inDouble(hot));
     }
     const BindLightTables bound(tables);
@@ -225,6 +226,7 @@ double deriveExposureEv100(const Scene& scene) {
 
 GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exposureEv100, double timeS) {
     GpuLights result;
+    const MeshChannels meshes = meshChannelsOf(scene);
     for (std::size_t slot = 0; slot < scene.lights.size(); ++slot) {
         const LightNode& light = scene.lights[slot];
         const LightDef& def = scene.lightDefs[std::size_t(light.def)];
@@ -236,7 +238,7 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         const glm::dmat4& world = scene.nodes[std::size_t(light.node)].worldFromNode;
         result.hot.push_back(makeHot(def, light, world, anchor, rangeM));
         result.hot.back().intensity *= glm::vec3(groupFactor(scene, light));
-        result.hot.back().typeFlags |= addShaping(result.tables, def, world, anchor, timeS)
+        result.hot.back().typeFlags |= addShaping(result.tables, def, world, anchor, timeS, meshes)
                                        << shared::LIGHT_SHAPING_SHIFT;
         shared::LightCold cold{};
         cold.penumbraScale = float(def.penumbraScale);

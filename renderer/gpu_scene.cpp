@@ -84,8 +84,8 @@ void setRows(GpuInstance& gpu, const glm::dmat4& m) {
 }
 
 GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, const Material& material,
-                         const PrimitivePlace& place, const glm::dvec3& anchor,
-                         std::uint32_t defaultMaterial) {
+                         const PrimitivePlace& place, const glm::dvec3& anchor, std::uint32_t defaultMaterial,
+                         std::uint8_t channels) {
     glm::dmat4 m = instance.worldFromLocal;
     m[3] -= glm::dvec4(anchor, 0.0);
     GpuInstance gpu{};
@@ -98,7 +98,8 @@ GpuInstance makeInstance(const Instance& instance, const Primitive& primitive, c
     gpu.flags = (glm::determinant(glm::dmat3(m)) < 0.0 ? INSTANCE_MIRRORED : 0u) |
                 (material.doubleSided ? INSTANCE_DOUBLE_SIDED : 0u) |
                 (instance.role == SurfaceRole::AlphaTested ? INSTANCE_ALPHA_TESTED : 0u) |
-                (primitive.tangents.empty() ? 0u : INSTANCE_HAS_TANGENTS);
+                (primitive.tangents.empty() ? 0u : INSTANCE_HAS_TANGENTS) |
+                std::uint32_t(channels) << INSTANCE_CHANNELS_SHIFT;
     return gpu;
 }
 
@@ -134,7 +135,6 @@ void GpuScene::uploadGeometry(const Scene& scene, const std::vector<bool>& movin
     std::vector<glm::uvec4> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec2> uv1s;
-    std::vector<GpuInstance> gpuInstances;
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         const Instance& instance = instances_[i];
         const Primitive& primitive = primitiveOf(scene, instance);
@@ -148,12 +148,13 @@ void GpuScene::uploadGeometry(const Scene& scene, const std::vector<bool>& movin
         }
         const Material& material = materialOf(scene, instance.material);
         GpuInstance gpu = makeInstance(instance, primitive, material, place->second, anchor_,
-                                       std::uint32_t(scene.materials.size()));
+                                       std::uint32_t(scene.materials.size()),
+                                       scene.nodes[std::size_t(instance.node)].meshChannels);
         if (i < moving.size() && moving[i]) {
             gpu.flags |= INSTANCE_MOVING;
             movingInstances_.push_back(std::uint32_t(i));
         }
-        gpuInstances.push_back(gpu);
+        gpuInstances_.push_back(gpu);
         triangles_ += instance.triangleCount;
         const Bounds bounds = boundsOf(primitive, instance.worldFromLocal);
         DrawItem draw;
@@ -178,12 +179,11 @@ void GpuScene::uploadGeometry(const Scene& scene, const std::vector<bool>& movin
     indexBuffer_ = gpu::Buffer(device_, indexDesc);
     indexBuffer_.upload(indices);
     uv1Buffer_ = texelBuffer(device_, "uv1s", uv1s, VK_FORMAT_R32G32_SFLOAT, "geometry");
-    instanceBuffer_ = storageBuffer(device_, "instances", gpuInstances, "geometry");
+    instanceBuffer_ = storageBuffer(device_, "instances", gpuInstances_, "geometry");
     if (movingInstances_.empty()) return;
-    for (const GpuInstance& gpu : gpuInstances)
+    for (const GpuInstance& gpu : gpuInstances_)
         previousRows_.push_back({gpu.row0, gpu.row1, gpu.row2});
     previousInstanceBuffer_ = storageBuffer(device_, "previousInstances", previousRows_, "geometry");
-    gpuInstances_ = std::move(gpuInstances);
 }
 
 void GpuScene::uploadMaterials(const Scene& scene, const std::vector<std::uint32_t>& placeOfImage) {
@@ -328,6 +328,23 @@ void GpuScene::updateMovingInstances(const Scene& scene) {
     rayWorld_->update(world_);
 }
 
+bool GpuScene::updateChannels(const Scene& scene) {
+    bool changed = false;
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        const std::uint32_t channels = scene.nodes[std::size_t(instances_[i].node)].meshChannels;
+        std::uint32_t& flags = gpuInstances_[i].flags;
+        const std::uint32_t now =
+            (flags & ((1u << INSTANCE_CHANNELS_SHIFT) - 1u)) | channels << INSTANCE_CHANNELS_SHIFT;
+        changed = changed || now != flags;
+        flags = now;
+    }
+    if (!changed) return false;
+    instanceBuffer_.upload(gpuInstances_);
+    kilolux::updateChannels(world_, scene, instances_);
+    rayWorld_->updateChannels(world_);
+    return true;
+}
+
 void GpuScene::decideFeatures(const Scene& scene) {
     for (int feature = 0; feature < FEATURE_COUNT; ++feature)
         features_[std::uint32_t(feature)] = 0;
@@ -365,6 +382,10 @@ void GpuScene::decideLightFeatures() {
         anyShaping([](const LightShaping& shaping) { return shaping.profile != 0u; });
     features_[FEATURE_LIGHT_FUNCTIONS] =
         anyShaping([](const LightShaping& shaping) { return shaping.functionKind != LIGHT_FUNCTION_NONE; });
+    features_[FEATURE_LIGHT_CHANNELS] =
+        anyShaping([](const LightShaping& shaping) { return shaping.channels != CHANNELS_ALL; });
+    features_[FEATURE_CHANNEL_SHADOWS] =
+        anyShaping([](const LightShaping& shaping) { return shaping.shadowChannels != CHANNELS_ALL; });
     const bool fits = slots_.hot().size() <= LIGHT_UNIFORM_SLOTS &&
                       device_.limits().maxUniformBufferRange >= LIGHT_UNIFORM_SLOTS * sizeof(LightHot);
     features_[CHOICE_LIGHTS_IN_UNIFORM] = fits;

@@ -38,6 +38,8 @@ class GpuScene {
     // `offsetsM` moves the i-th light; empty: none. `timeS` moves light functions. The device must be idle.
     void updateLights(const Scene& scene, double exposureEv100, std::uint64_t frame,
                       const std::vector<glm::dvec3>& offsetsM = {}, double timeS = 0.0);
+    // Takes over the lighting channels of the meshes; whether any has changed. The device must be idle.
+    bool updateChannels(const Scene& scene);
     // Takes over the transforms of the instances that create() was told may move; what they were becomes the
     // previous one. Once a frame, also when nothing moved. The device must be idle.
     void updateMovingInstances(const Scene& scene);
@@ -91,7 +93,7 @@ class GpuScene {
     LightSlots slots_;
     std::vector<std::uint32_t> freshSlots_;
     std::vector<std::uint32_t> movingInstances_;
-    std::vector<shared::GpuInstance> gpuInstances_;  // only where some move
+    std::vector<shared::GpuInstance> gpuInstances_;
     std::vector<shared::InstanceRows> previousRows_; // only where some move
     std::uint32_t lightCount_ = 0;
     int derivedRanges_ = 0;

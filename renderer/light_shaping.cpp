@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <set>
 
 namespace kilolux {
 
@@ -243,16 +244,29 @@ LightPicture makeFunctionImage(const Image& image) {
     return made;
 }
 
+MeshChannels meshChannelsOf(const Scene& scene) {
+    std::set<std::uint8_t> found;
+    for (const Node& node : scene.nodes) {
+        if (node.visible && node.mesh >= 0) found.insert(node.meshChannels);
+    }
+    return {found.begin(), found.end()};
+}
+
 std::uint32_t addShaping(LightTables& tables, const LightDef& def, const glm::dmat4& worldFromNode,
-                         const glm::dvec3& anchor, double timeS) {
+                         const glm::dvec3& anchor, double timeS, const MeshChannels& meshes) {
     shared::LightShaping shaping{};
+    const bool leavesOut = std::any_of(meshes.begin(), meshes.end(),
+                                       [&](std::uint8_t mesh) { return (mesh & def.channels) == 0; });
+    const std::uint32_t limited = leavesOut ? shared::CHANNELS_LIMITED + def.channels : shared::CHANNELS_ALL;
+    shaping.channels = limited;
+    shaping.shadowChannels = def.channelsCast ? shared::CHANNELS_ALL : limited;
     if (def.type == LightType::Rect) addDoors(shaping, def);
     const bool hasProfile = def.ies && def.iesUse != IesUse::None && def.type != LightType::Directional &&
                             def.ies->maxCandela() > 0.0;
     if (hasProfile) addProfile(shaping, tables, def);
     addFunction(shaping, tables, def, worldFromNode, anchor, timeS);
     const bool any = shaping.doorDepthM != glm::vec4(0.0f) || shaping.profile != 0 ||
-                     shaping.functionKind != shared::LIGHT_FUNCTION_NONE;
+                     shaping.functionKind != shared::LIGHT_FUNCTION_NONE || leavesOut;
     if (!any || tables.shapings.size() >= shared::LIGHT_MAX_SHAPINGS) return 0;
     tables.shapings.push_back(shaping);
     return std::uint32_t(tables.shapings.size());

@@ -22,10 +22,14 @@ LightProfile makeLightProfile(const IesProfile& profile);
 // The luminance of a picture, 0 to 1, resampled to 256 x 256.
 LightPicture makeFunctionImage(const Image& image);
 
+// Which lighting channels the meshes of a scene have: an element per value that occurs.
+using MeshChannels = std::vector<std::uint8_t>;
+MeshChannels meshChannelsOf(const Scene& scene);
+
 // Adds what the light has to `tables`; the number that LIGHT_SHAPING_SHIFT wants, 0 for a light that has
 // nothing. Pictures are made once for as long as the document's profile or image lives. `timeS` moves
-// caustics and flicker.
+// caustics and flicker. `meshes`: only a light that leaves some of them out has channels.
 std::uint32_t addShaping(LightTables& tables, const LightDef& def, const glm::dmat4& worldFromNode,
-                         const glm::dvec3& anchor, double timeS);
+                         const glm::dvec3& anchor, double timeS, const MeshChannels& meshes);
 
 } // namespace kilolux

@@ -34,6 +34,8 @@ constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
     {shared::FEATURE_BARN_DOORS, "BarnDoors", "no rectangle light has any"},
     {shared::FEATURE_IES_PROFILES, "IesProfiles", "no light has one"},
     {shared::FEATURE_LIGHT_FUNCTIONS, "LightFunctions", "no light has one"},
+    {shared::FEATURE_LIGHT_CHANNELS, "LightChannels", "every light reaches every mesh"},
+    {shared::FEATURE_CHANNEL_SHADOWS, "ChannelShadows", "every mesh casts every light's shadow"},
 }};
 
 double percentile(std::vector<double> values, double share) {

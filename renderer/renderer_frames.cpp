@@ -62,6 +62,7 @@ void Renderer::Impl::updateScene(double timeS) {
                def.function.kind == LightFunctionKind::Flicker;
     });
     if (!lightsDirty && !fading && !swaying && !flowing && scene.animations.empty()) return;
+    if (lightsDirty && gpuScene->updateChannels(scene)) historyReset = "lighting channels";
     gpuScene->updateLights(scene, exposureEv100, framesRun,
                            swayOffsets(scene.lights.size(), options.settings.lightsSway, timeS), timeS);
     lightsDirty = false;

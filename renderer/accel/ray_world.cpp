@@ -228,9 +228,18 @@ RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances,
     world.alpha = buildAlphaMasks(scene, instances);
     for (std::size_t i = 0; i < instances.size(); ++i)
         world.instances.push_back({instances[i].firstTriangle, world.alpha.recordOfInstance[i]});
+    updateChannels(world, scene, instances);
     updateInstances(world, instances, anchor);
     fillStats(world);
     return world;
+}
+
+void updateChannels(RayWorld& world, const Scene& scene, const std::vector<Instance>& instances) {
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const std::uint32_t channels = scene.nodes[std::size_t(instances[i].node)].meshChannels;
+        std::uint32_t& word = world.instances[i].alphaRecordAndChannels;
+        word = (word & ALPHA_RECORD_NONE) | channels << TRACE_CHANNELS_SHIFT;
+    }
 }
 
 void updateInstances(RayWorld& world, const std::vector<Instance>& instances, const glm::dvec3& anchor) {

@@ -82,4 +82,7 @@ RayWorld buildWorld(const Scene& scene, const std::vector<Instance>& instances,
 // and the first topNodeCapacity `nodes`, nothing else. O(moving instances).
 void updateInstances(RayWorld& world, const std::vector<Instance>& instances, const glm::dvec3& anchor);
 
+// Takes over the lighting channels of the instances' meshes: rewrites `instances` of the world.
+void updateChannels(RayWorld& world, const Scene& scene, const std::vector<Instance>& instances);
+
 } // namespace kilolux

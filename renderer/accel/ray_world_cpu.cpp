@@ -77,6 +77,7 @@ uvec4 fetchAlphaTriangle(uint texel) {
 }
 
 const bool kTraceAlpha = true;
+const bool kTraceChannels = true;
 
 #include "shaders/math/prelude.glsl"
 
@@ -86,17 +87,17 @@ const bool kTraceAlpha = true;
 #include "shaders/lib/tile_order.glsl"
 #include "shaders/lib/trace_core.glsl"
 
-Ray rayOf(const vec3& origin, const vec3& dir, float tMinM, float tMaxM) {
-    return {origin, tMinM, dir, tMaxM};
+Ray rayOf(const vec3& origin, const vec3& dir, float tMinM, float tMaxM, uint channels = CHANNELS_ALL) {
+    return {origin, tMinM, dir, tMaxM, channels};
 }
 
 } // namespace
 } // namespace shader
 
-bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM,
-              float tMaxM) {
+bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM,
+              std::uint32_t channels) {
     const shader::BoundWorld bound(world);
-    return shader::occludedByBvh(shader::rayOf(origin, dir, tMinM, tMaxM));
+    return shader::occludedByBvh(shader::rayOf(origin, dir, tMinM, tMaxM, channels));
 }
 
 CpuHit nearest(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM,

@@ -16,8 +16,10 @@ struct CpuHit {
     bool backFace; // as glTF has it: a mirroring transform turns the winding round
 };
 
-// `dir` is unit length; hits count in [tMinM, tMaxM). Coordinates are world minus anchor.
-bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM);
+// `dir` is unit length; hits count in [tMinM, tMaxM). Coordinates are world minus anchor. `channels` of the
+// meshes that stop the ray (shaders/shared/channels.h).
+bool occluded(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM, float tMaxM,
+              std::uint32_t channels = shared::CHANNELS_ALL);
 CpuHit nearest(const RayWorld& world, const glm::vec3& origin, const glm::vec3& dir, float tMinM,
                float tMaxM);
 bool alphaPasses(const RayWorld& world, std::uint32_t instance, std::uint32_t primitive,

@@ -78,6 +78,10 @@ void GpuRayWorld::update(const RayWorld& world) {
     if (rayQuery_) rayQuery_->update(world);
 }
 
+void GpuRayWorld::updateChannels(const RayWorld& world) {
+    instances_.upload(world.instances);
+}
+
 std::vector<gpu::PassUse> GpuRayWorld::alphaUses() {
     return {{"traceInstances"}, {"alphaTexels"}, {"alphaRecords"}, {"alphaTriangles"}};
 }

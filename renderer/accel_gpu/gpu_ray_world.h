@@ -30,6 +30,7 @@ class GpuRayWorld {
 
     // After updateInstances(): the entries and the top level, nothing else. The device must be idle.
     void update(const RayWorld& world);
+    void updateChannels(const RayWorld& world); // after the function of that name
 
     // What a pass that includes lib/trace.glsl declares and binds, beside its own.
     static std::vector<gpu::PassUse> traceUses(TraceBackEnd backEnd = TraceBackEnd::ComputeBvh);

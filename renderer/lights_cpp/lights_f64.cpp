@@ -36,7 +36,9 @@ LightShaping fromF32(const shared::LightShaping& shaping) {
             .functionImage = shaping.functionImage,
             .functionPhase = shaping.functionPhase,
             .functionMap = vec4(shaping.functionMap),
-            .functionOriginWs = vec3(shaping.functionOriginWs)};
+            .functionOriginWs = vec3(shaping.functionOriginWs),
+            .channels = shaping.channels,
+            .shadowChannels = shaping.shadowChannels};
 }
 
 static vec4 ltcLookup0(vec2 uv) {

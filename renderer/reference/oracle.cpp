@@ -44,16 +44,17 @@ const OracleLight& Oracle::light(std::size_t index) const {
 
 OraclePointResult Oracle::evaluatePoint(const OraclePoint& point, std::size_t lightIndex,
                                         const OracleOptions& options) const {
+    const OracleLight& light = state_->lights[lightIndex];
+    if ((light.channels & point.channels) == 0) return {};
     Occlusion occlusion;
     if (options.shadows)
         occlusion = [&](const glm::dvec3& directionWs, double lengthM) {
-            return state_->geometry.occluded(point.positionWs, directionWs, lengthM);
+            return state_->geometry.occluded(point.positionWs, directionWs, lengthM, light.shadowChannels);
         };
     const std::uint64_t seed = seedOf(
         {options.seed, lightIndex, std::bit_cast<std::uint64_t>(point.positionWs.x),
          std::bit_cast<std::uint64_t>(point.positionWs.y), std::bit_cast<std::uint64_t>(point.positionWs.z)});
-    return estimateLight(state_->lights[lightIndex], point, occlusion, options.estimator,
-                         options.samplesPerLight, seed);
+    return estimateLight(light, point, occlusion, options.estimator, options.samplesPerLight, seed);
 }
 
 std::optional<OracleHit> Oracle::tracePrimary(const glm::dvec3& originWs, const glm::dvec3& directionWs,
@@ -61,8 +62,9 @@ std::optional<OracleHit> Oracle::tracePrimary(const glm::dvec3& originWs, const 
     return state_->geometry.nearest(originWs, directionWs, minDistanceM);
 }
 
-bool Oracle::occluded(const glm::dvec3& originWs, const glm::dvec3& directionWs, double lengthM) const {
-    return state_->geometry.occluded(originWs, directionWs, lengthM);
+bool Oracle::occluded(const glm::dvec3& originWs, const glm::dvec3& directionWs, double lengthM,
+                      std::optional<std::uint8_t> channels) const {
+    return state_->geometry.occluded(originWs, directionWs, lengthM, channels);
 }
 
 } // namespace kilolux::oracle

@@ -40,6 +40,7 @@ struct OraclePoint {
     glm::dvec3 shadingNormalWs{0.0, 1.0, 0.0};
     glm::dvec3 viewDirWs{0.0, 1.0, 0.0};
     PointMaterial material;
+    std::uint8_t channels = 255; // lighting channels of its mesh
 };
 
 struct OraclePointResult {
@@ -122,7 +123,9 @@ class Oracle {
     std::optional<OracleHit> tracePrimary(const glm::dvec3& originWs, const glm::dvec3& directionWs,
                                           double minDistanceM = 0.0) const;
     // True when something stands strictly between a surface point and a point `lengthM` along `directionWs`.
-    bool occluded(const glm::dvec3& originWs, const glm::dvec3& directionWs, double lengthM) const;
+    // Only meshes that share a channel with `channels` do, where given.
+    bool occluded(const glm::dvec3& originWs, const glm::dvec3& directionWs, double lengthM,
+                  std::optional<std::uint8_t> channels = {}) const;
 
     // `camera` sees width x height pixels; its own aspect is ignored, the picture's is used.
     OracleImage render(const Camera& camera, int width, int height, const OracleOptions& options = {}) const;

@@ -35,7 +35,8 @@ struct OracleGeometry::Query {
     dvec3 directionWs;
     double minM;
     double maxM;
-    bool primary; // culls back faces
+    bool primary;                           // culls back faces
+    std::optional<std::uint8_t> channels{}; // of the parts that count; all where absent
 };
 
 OracleGeometry::OracleGeometry(const Scene& scene) : materials_(scene.materials, scene.images) {
@@ -75,7 +76,7 @@ void OracleGeometry::addPart(const Scene& scene, int node, int primitiveIndex) {
         {mesh, primitiveIndex, node, primitive.material, material.doubleSided,
          material.alphaMode != AlphaMode::Opaque,
          material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : MaterialReader::kOpaqueFrom,
-         determinant < 0.0 ? -1.0 : 1.0, world, normalMatrix});
+         determinant < 0.0 ? -1.0 : 1.0, scene.nodes[node].meshChannels, world, normalMatrix});
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices =
         static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -130,6 +131,7 @@ dvec3 cornerWeights(const dvec3 (&corner)[3], const dvec3& at) {
 
 bool OracleGeometry::accepts(const Query& query, std::uint32_t partIndex, std::uint32_t triangleIndex) const {
     const Part& part = parts_[partIndex];
+    if (query.channels && (*query.channels & part.channels) == 0) return false;
     const Triangle tri = triangle(part, triangleIndex);
     const double area2 = glm::length(tri.normal);
     if (!(area2 > 0.0)) return false;
@@ -174,8 +176,9 @@ RTCRay OracleGeometry::makeRay(const Query& query, double& shiftM) const {
     return ray;
 }
 
-bool OracleGeometry::occluded(const dvec3& originWs, const dvec3& directionWs, double lengthM) const {
-    Query query{{}, this, originWs, directionWs, 0.0, lengthM * (1.0 - kEndTolerance), false};
+bool OracleGeometry::occluded(const dvec3& originWs, const dvec3& directionWs, double lengthM,
+                              std::optional<std::uint8_t> channels) const {
+    Query query{{}, this, originWs, directionWs, 0.0, lengthM * (1.0 - kEndTolerance), false, channels};
     rtcInitIntersectContext(&query.context);
     query.context.filter = &OracleGeometry::filter;
     double shiftM = 0.0;
@@ -217,6 +220,7 @@ OracleHit OracleGeometry::describe(const Query& query, const Part& part, std::ui
     hit.point.positionWs = tri.corner[0] * weights.x + tri.corner[1] * weights.y + tri.corner[2] * weights.z;
     hit.point.viewDirWs = -query.directionWs;
     hit.point.material = {value.baseColor, value.metallic, value.roughness};
+    hit.point.channels = part.channels;
 
     dvec3 normal = part.normalMatrix * at.normal;
     const double normalLength = glm::length(normal);

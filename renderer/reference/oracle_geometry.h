@@ -20,7 +20,8 @@ class OracleGeometry {
 
     std::optional<OracleHit> nearest(const glm::dvec3& originWs, const glm::dvec3& directionWs,
                                      double minDistanceM) const;
-    bool occluded(const glm::dvec3& originWs, const glm::dvec3& directionWs, double lengthM) const;
+    bool occluded(const glm::dvec3& originWs, const glm::dvec3& directionWs, double lengthM,
+                  std::optional<std::uint8_t> channels) const;
 
   private:
     struct Part { // one primitive of one node; the index is Embree's geometry id
@@ -32,6 +33,7 @@ class OracleGeometry {
         bool masked; // alpha decides point by point
         double cutoff;
         double side; // -1 where the node mirrors
+        std::uint8_t channels;
         glm::dmat4 worldFromNode;
         glm::dmat3 normalMatrix; // inverse transpose
 

@@ -218,6 +218,8 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     light.cosOuter = std::cos(def.outerConeRad);
     light.rangeM = rangeM ? rangeM : def.rangeM;
     light.rayEndBiasM = def.rayEndBiasM;
+    light.channels = def.channels;
+    if (!def.channelsCast) light.shadowChannels = def.channels;
     light.penumbraScale = def.penumbraScale;
     light.penumbraCenterWs = light.centerWs;
     light.function = def.function;

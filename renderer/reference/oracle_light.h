@@ -44,9 +44,11 @@ struct OracleLight {
     bool profileIsShape = false;
     double profileMultiplier = 0.0; // where the profile's candela stand in place of the light's intensity
     LightFunction function;
-    glm::dvec3 intensityCd{0.0};    // local lights
-    glm::dvec3 illuminanceLux{0.0}; // directional, on a surface that faces it
-    glm::dvec3 radianceNit{0.0};    // 0 for lights without extent
+    std::uint8_t channels = 255;                // of the meshes that it reaches
+    std::optional<std::uint8_t> shadowChannels; // of the meshes that cast its shadow; absent: all do
+    glm::dvec3 intensityCd{0.0};                // local lights
+    glm::dvec3 illuminanceLux{0.0};             // directional, on a surface that faces it
+    glm::dvec3 radianceNit{0.0};                // 0 for lights without extent
 
     // A point or an infinitely distant point: one direction, no area.
     bool isDelta() const;

@@ -43,7 +43,7 @@ KX_INLINE float sampleAlpha(uvec4 image, vec2 uv) {
 
 // True where the surface is there: it stops rays and is drawn. Instances without an alpha record always are.
 KX_INLINE bool alphaPasses(uint instance, uint primitive, vec2 barycentrics) {
-    uint record = fetchTraceInstance(instance).y;
+    uint record = fetchTraceInstance(instance).y & ALPHA_RECORD_NONE;
     if (record == ALPHA_RECORD_NONE) {
         return true;
     }

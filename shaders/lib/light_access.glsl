@@ -15,6 +15,7 @@ layout(constant_id = FEATURE_DISK_LIGHTS) const bool kDiskLights = true;
 layout(constant_id = FEATURE_BARN_DOORS) const bool kBarnDoors = true;
 layout(constant_id = FEATURE_IES_PROFILES) const bool kIesProfiles = true;
 layout(constant_id = FEATURE_LIGHT_FUNCTIONS) const bool kLightFunctions = true;
+layout(constant_id = FEATURE_LIGHT_CHANNELS) const bool kLightChannels = true;
 layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = false;
 #define KX_HAS_DIRECTIONAL kDirectionalLights
 #define KX_HAS_SPHERE kSphereLights
@@ -25,6 +26,7 @@ layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = fal
 #define KX_HAS_BARN_DOORS kBarnDoors
 #define KX_HAS_IES kIesProfiles
 #define KX_HAS_LIGHT_FUNCTIONS kLightFunctions
+#define KX_HAS_LIGHT_CHANNELS kLightChannels
 
 uniform sampler2D ltcParameters;
 uniform sampler2D ltcScales;
@@ -87,6 +89,11 @@ bool lightReaches(LightHot light, vec3 positionWs) {
     bool within = distance2 * light.invRange * light.invRange < 1.0;
     bool inCone = dot(to, bounds.axisWs) >= (bounds.cosHalfAngle - 1.0e-6) * sqrt(distance2);
     return lightIsOn(light) && within && inCone;
+}
+
+// And whether it reaches the point's mesh.
+bool lightReaches(LightHot light, ShadingPoint point) {
+    return lightReaches(light, point.positionWs) && lightIncludes(light, point.channels);
 }
 
 #endif

@@ -9,7 +9,8 @@
 // The point at `uv`; drawn again by `seed` until one is above the receiver's horizon and emits towards it. False when
 // none is found.
 bool usablePoint(Receiver receiver, LightHot light, vec2 uv, uint seed, out LightSample s) {
-    // A pixel that took its neighbour's choice may have all of the light below its horizon.
+    // A pixel that took its neighbour's choice may be left out by the light or have all of it below its horizon.
+    if (!lightIncludes(light, receiver.point.channels)) return false;
     LightExtent extent = lightExtent(light, receiver.point.positionWs);
     float highest = dot(receiver.point.normalWs, extent.toCenter) + extentAlong(extent, receiver.point.normalWs);
     int draws = highest > 0.0 ? kMaxDraws : 0;
@@ -42,6 +43,11 @@ vec3 termsAtPoint(Receiver receiver, LightSample s) {
     return s.geometry * vec3(brdf.diffuse, brdf.specular);
 }
 
+// Of the meshes that cast the light's shadow.
+uint shadowChannelsOf(LightHot light) {
+    return lightHasShaping(light) ? lightShaping(light).shadowChannels : CHANNELS_ALL;
+}
+
 // RAY_VISIBLE or RAY_HIDDEN of a point on the light of a slot; `traced`: there was a ray to trace.
 uint tracePoint(Receiver receiver, uint slot, LightSample s, out bool traced) {
     LightCold cold = loadLightCold(slot);
@@ -49,6 +55,7 @@ uint tracePoint(Receiver receiver, uint slot, LightSample s, out bool traced) {
     traced = false;
     if (dot(receiver.surface.geoNormalWs, s.dirWs) <= 0.0) return RAY_HIDDEN;
     Ray ray = shadowRay(receiver, s, cold.rayEndBiasM);
+    if (kTraceChannels) ray.channels = shadowChannelsOf(loadOwnLightHot(slot));
     if (ray.tMaxM <= 0.0) return RAY_VISIBLE;
     traced = true;
     return occluded(ray) ? RAY_HIDDEN : RAY_VISIBLE;

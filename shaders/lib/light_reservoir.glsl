@@ -44,7 +44,7 @@ PointLight pointLight(Receiver receiver, uint slot, vec2 uv) {
     if (slot >= frame.lightCount) return lit;
     LightHot light = loadOwnLightHot(slot);
     lit.emission = lightEvaluate(light, receiver.point.positionWs);
-    if (luminance(lit.emission) <= 0.0) return lit;
+    if (luminance(lit.emission) <= 0.0 || !lightIncludes(light, receiver.point.channels)) return lit;
     lit.point = lightSample(light, receiver.point.positionWs, uv);
     if (!lit.point.valid || dot(receiver.point.normalWs, lit.point.dirWs) <= 0.0) return lit;
     lit.terms = termsAtPoint(receiver, lit.point);

@@ -2,6 +2,7 @@
 #ifndef KILOLUX_RAY_GLSL
 #define KILOLUX_RAY_GLSL
 #include "../math/prelude.glsl"
+#include "../shared/channels.h"
 
 // Points origin + t * dir for tMinM <= t < tMaxM. `dir` is unit length, so t is metres; tMinM >= 0.
 struct Ray {
@@ -9,6 +10,7 @@ struct Ray {
     float tMinM;
     vec3 dir;
     float tMaxM;
+    uint channels; // CHANNELS_LIMITED + those of the meshes that stop it, or CHANNELS_ALL
 };
 
 const uint HIT_NONE = 0xFFFFFFFFu;
@@ -37,6 +39,7 @@ KX_INLINE Ray makeRay(vec3 origin, vec3 dir, float tMaxM) {
     ray.tMinM = 0.0;
     ray.dir = dir;
     ray.tMaxM = tMaxM;
+    ray.channels = CHANNELS_ALL;
     return ray;
 }
 

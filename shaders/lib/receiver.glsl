@@ -23,7 +23,8 @@ Receiver loadReceiver(uvec2 pixel) {
     uvec4 texel = texelFetch(gSurface, at, 0);
     receiver.depthM = surfaceDepthM(texel);
     receiver.exists = receiver.depthM < DEPTH_SKY;
-    receiver.surface = unpackSurface(texel, texelFetch(gMaterial, at, 0).x);
+    uint material = texelFetch(gMaterial, at, 0).x;
+    receiver.surface = unpackSurface(texel, material);
     CameraRay camera = cameraRay(pixel);
     vec3 positionWs = camera.originWs + camera.dir * receiver.depthM;
     float distanceM = receiver.depthM * length(camera.dir);
@@ -31,6 +32,7 @@ Receiver loadReceiver(uvec2 pixel) {
                                              : positionErrorM(positionWs) + 7.5e-7 * distanceM;
     receiver.point = makeShadingPoint(positionWs, receiver.surface.normalWs, -normalize(camera.dir),
                                       receiver.surface.roughness);
+    if (kLightChannels) receiver.point.channels = materialChannels(material);
     return receiver;
 }
 

@@ -9,6 +9,7 @@
 #include "ray.glsl"
 
 layout(constant_id = FEATURE_ALPHA_MASK) const bool kTraceAlpha = true;
+layout(constant_id = FEATURE_CHANNEL_SHADOWS) const bool kTraceChannels = true;
 
 // Texel buffers, because on CPU drivers they read faster than storage buffers.
 uniform samplerBuffer tracePairs;    // R32G32B32A32_SFLOAT: BvhPair

@@ -11,7 +11,7 @@
 // JCGT 2013, section 3), its error relative to the grid by the sixteenth of a step that boxes keep.
 //
 // Needs, beside what trace_hit.glsl does: uvec4 fetchNode(uint texel), vec4 fetchPair(uint texel),
-// uvec4 fetchEntry(uint texel), BvhEntry worldEntry(), and const bool kTraceAlpha.
+// uvec4 fetchEntry(uint texel), BvhEntry worldEntry(), const bool kTraceAlpha and const bool kTraceChannels.
 #ifndef KILOLUX_TRACE_CORE_GLSL
 #define KILOLUX_TRACE_CORE_GLSL
 #include "trace_hit.glsl"
@@ -154,8 +154,8 @@ const uint TRACE_ALPHA = 1u;
 
 // Tests both triangles of a pair. Returns true when `found` has become a hit nearer than it was; `sawAlpha` is
 // set where alpha-tested geometry was crossed and left out.
-KX_INLINE bool intersectPair(uint pair, TraceSpace space, float tMin, uint alphaMode, INOUT(PairHit) found,
-                             INOUT(bool) sawAlpha) {
+KX_INLINE bool intersectPair(uint pair, TraceSpace space, float tMin, uint channels, uint alphaMode,
+                             INOUT(PairHit) found, INOUT(bool) sawAlpha) {
     uint texel = pair * BVH_PAIR_TEXELS;
     vec4 p0 = fetchPair(texel);
     vec4 p1 = fetchPair(texel + 1u);
@@ -196,7 +196,12 @@ KX_INLINE bool intersectPair(uint pair, TraceSpace space, float tMin, uint alpha
             candidate.second = second ? 1u : 0u;
             candidate.firstTriangle = space.firstTriangle;
             bool accepted = true;
-            if (kTraceAlpha) {
+            if (kTraceChannels) {
+                if (channels != CHANNELS_ALL) {
+                    accepted = stopsChannels(candidate, channels);
+                }
+            }
+            if (kTraceAlpha && accepted) {
                 if (isAlphaTested(pair, candidate.second)) {
                     accepted = alphaMode == TRACE_ALPHA;
                     sawAlpha = sawAlpha || !accepted;
@@ -237,7 +242,8 @@ KX_INLINE bool traverse(Ray ray, bool anyHit, uint alphaMode, INOUT(PairHit) fou
             top += both ? 1u : (s0.hit || s1.hit ? 0u : 0xFFFFFFFFu);
         }
         while (ref >= BVH_REF_LEAF && ref < BVH_REF_ENTER) {
-            bool nearer = intersectPair(ref & BVH_LEAF_FIRST_MASK, space, ray.tMinM, alphaMode, found, sawAlpha);
+            bool nearer = intersectPair(ref & BVH_LEAF_FIRST_MASK, space, ray.tMinM, ray.channels, alphaMode, found,
+                                        sawAlpha);
             hit = hit || nearer;
             bool more = (ref & ~BVH_REF_LEAF) > BVH_LEAF_FIRST_MASK;
             if (anyHit && nearer) {

@@ -95,4 +95,10 @@ KX_INLINE bool passesAlpha(PairHit found) {
     return alphaPasses(hit.instance, hit.primitive, hit.barycentrics);
 }
 
+// Whether a mesh of the hit's lighting channels stops a ray of those.
+KX_INLINE bool stopsChannels(PairHit found, uint channels) {
+    uint ofMesh = fetchTraceInstance(resolveHit(found).instance).y >> TRACE_CHANNELS_SHIFT;
+    return (ofMesh & channels) != 0u;
+}
+
 #endif

@@ -45,10 +45,15 @@ bool judgePlane(inout PairHit hit, vec3 origin, vec3 dir) {
 // One query; true when something was met. `own`: it is the plane that the ray starts in.
 bool queryOnce(Ray ray, float tMinM, uint flags, out PairHit hit, out bool own) {
     rayQueryEXT query;
-    rayQueryInitializeEXT(query, rayQueryScene, kTraceAlpha ? flags : flags | gl_RayFlagsOpaqueEXT, 0xFFu, ray.origin,
-                          tMinM, ray.dir, ray.tMaxM);
+    // Static geometry is one instance, whose triangles have channels of their own: each is asked.
+    bool limited = kTraceChannels && ray.channels != CHANNELS_ALL;
+    if (limited) flags |= gl_RayFlagsNoOpaqueEXT;
+    if (!limited && !kTraceAlpha) flags |= gl_RayFlagsOpaqueEXT;
+    rayQueryInitializeEXT(query, rayQueryScene, flags, 0xFFu, ray.origin, tMinM, ray.dir, ray.tMaxM);
     while (rayQueryProceedEXT(query)) {
-        if (kTraceAlpha && passesAlpha(KX_RAY_QUERY_HIT(query, false))) {
+        if (!kTraceAlpha && !kTraceChannels) continue;
+        PairHit found = KX_RAY_QUERY_HIT(query, false);
+        if ((!kTraceAlpha || passesAlpha(found)) && (!limited || stopsChannels(found, ray.channels))) {
             rayQueryConfirmIntersectionEXT(query);
         }
     }

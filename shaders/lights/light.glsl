@@ -1,7 +1,7 @@
 // One set of functions for every light type; each evaluation has a single call site, the type only chooses
 // what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place),
 // profileLookup and functionImageLookup (light_filter.glsl), and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK, KX_HAS_BARN_DOORS,
-// KX_HAS_IES and KX_HAS_LIGHT_FUNCTIONS
+// KX_HAS_IES, KX_HAS_LIGHT_FUNCTIONS and KX_HAS_LIGHT_CHANNELS
 // as constant expressions that are false where the scene has no such light.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
 #define KILOLUX_LIGHTS_LIGHT_GLSL
@@ -14,6 +14,9 @@
 #endif
 #ifndef KX_HAS_LIGHT_FUNCTIONS
 #define KX_HAS_LIGHT_FUNCTIONS true
+#endif
+#ifndef KX_HAS_LIGHT_CHANNELS
+#define KX_HAS_LIGHT_CHANNELS true
 #endif
 #include "directional.glsl"
 #include "disk.glsl"
@@ -107,7 +110,7 @@ KX_INLINE EmitterOutline lightOutline(LightHot light, vec3 receiverWs, float alp
 // Analytic, unshadowed.
 KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, LtcLobe lobe) {
     vec3 emission = lightEvaluate(light, point.positionWs);
-    if (luminance(emission) <= 0.0) {
+    if (luminance(emission) <= 0.0 || !lightIncludes(light, point.channels)) {
         LightIrradiance none;
         none.emission = vec3(0.0);
         none.diffuse = 0.0;

@@ -11,6 +11,7 @@ struct ShadingPoint {
     float noV;       // >= KX_MIN_NOV
     float roughness; // >= KX_MIN_ROUGHNESS
     float alpha;     // roughness^2
+    uint channels;   // lighting channels of the mesh, 8 bits
 };
 
 // The GGX lobe of a shading point as a linearly transformed cosine. Make it with makeLtcLobe, once per pixel.

@@ -3,8 +3,9 @@
 #ifndef KILOLUX_LIGHTS_SHADING_POINT_GLSL
 #define KILOLUX_LIGHTS_SHADING_POINT_GLSL
 #include "../math/ltc.glsl"
+#include "../shared/channels.h"
 
-// `normalWs` should face the viewer; noV is clamped where it does not.
+// `normalWs` should face the viewer; noV is clamped where it does not. Lights of all channels reach it.
 KX_INLINE ShadingPoint makeShadingPoint(vec3 positionWs, vec3 normalWs, vec3 viewDirWs, float roughness) {
     ShadingPoint point;
     point.positionWs = positionWs;
@@ -13,6 +14,7 @@ KX_INLINE ShadingPoint makeShadingPoint(vec3 positionWs, vec3 normalWs, vec3 vie
     point.noV = clamp(dot(normalWs, viewDirWs), KX_MIN_NOV, 1.0);
     point.roughness = clamp(roughness, KX_MIN_ROUGHNESS, 1.0);
     point.alpha = point.roughness * point.roughness;
+    point.channels = CHANNELS_MASK;
     return point;
 }
 

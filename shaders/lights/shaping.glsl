@@ -33,6 +33,13 @@ KX_INLINE LightShaping lightShaping(LightHot light) {
     return lightShapingLookup((light.typeFlags >> LIGHT_SHAPING_SHIFT) - 1u);
 }
 
+// Whether the light reaches a mesh of these channels (ShadingPoint::channels).
+KX_INLINE bool lightIncludes(LightHot light, uint channels) {
+    if (!KX_HAS_LIGHT_CHANNELS || !lightHasShaping(light)) return true;
+    uint asked = lightShaping(light).channels;
+    return asked == CHANNELS_ALL || (asked & channels) != 0u;
+}
+
 // Neither dead nor muted.
 KX_INLINE bool lightIsOn(LightHot light) {
     return (light.typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) == 0u;

@@ -163,7 +163,7 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
     float ratio2 = lightType(light) == LIGHT_DIRECTIONAL ? 0.0 : distance2 * light.invRange * light.invRange;
     float above = dot(point.normalWs, e.toCenter) + 1.001 * (e.halfLengthM + e.halfWidthM);
     bool dark = intensity <= 0.0 || !lightIsOn(light) || ratio2 > 1.00001 || above < 0.0;
-    if (dark || (e.flat_ && e.aheadM <= 0.0)) return 0.0;
+    if (dark || (e.flat_ && e.aheadM <= 0.0) || !lightIncludes(light, point.channels)) return 0.0;
     if (KX_HAS_BARN_DOORS && e.share <= 0.0) return 0.0;
     intensity *= e.share * max(1.0 - ratio2 * ratio2, 1.0e-6);
     if (KX_HAS_SPOT && lightType(light) == LIGHT_SPOT) {

@@ -27,7 +27,7 @@ void main() {
         if (gridded) cell = gridCells[gridCellOfPixel(pixel, receiver.depthM)];
         for (uint i = 0u; i < cell.count; ++i) {
             uint slot = gridded ? texelFetch(gridIndices, int(cell.first + i)).x : i;
-            inRange += lightReaches(loadLightHot(slot), receiver.point.positionWs) ? 1u : 0u;
+            inRange += lightReaches(loadLightHot(slot), receiver.point) ? 1u : 0u;
         }
         for (uint i = 0u; i < frame.sampling.rays; ++i)
             seen += (texelFetch(rayResults, ivec3(pixel, i), 0).x & RAY_STATE_MASK) == RAY_VISIBLE ? 1u : 0u;

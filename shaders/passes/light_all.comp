@@ -47,7 +47,7 @@ void main() {
         for (uint i = 0u; i < cell.count; ++i) {
             uint slot = gridded ? gridIndices[cell.first + i] : i;
             LightHot light = loadLightHot(slot);
-            if (!lightReaches(light, positionWs)) continue;
+            if (!lightReaches(light, receiver.point)) continue;
             ++inRange;
             LightIrradiance unshadowed;
             if (kEstimator == ESTIMATOR_SPLIT) {

@@ -117,7 +117,7 @@ void probeLight(Receiver receiver, uint slot, LtcLobe lobe) {
     LightHot light = loadOwnLightHot(slot);
     ProbeLight found = lights[slot];
     found.probability = candidateProbability(sums, budget, found.list, found.offered);
-    bool reaches = lightReaches(light, receiver.point.positionWs);
+    bool reaches = lightReaches(light, receiver.point);
     if (reaches) found.flags |= PROBE_REACHES;
     float albedo = luminance(diffuseAlbedo(receiver.surface));
     vec3 f0 = specularF0(receiver.surface);

@@ -52,7 +52,7 @@ void main() {
                                          frame.pixelAngleRad);
         depthM = max(dot(hit.positionWs - camera.originWs, camera.dir) / dot(camera.dir, camera.dir), frame.zNearM);
         surface = packSurface(depthM, hit.surface);
-        material = packMaterial(hit.surface);
+        material = packMaterial(hit.surface, instances[seen.x].flags >> INSTANCE_CHANNELS_SHIFT);
         moved = motionOf(seen.x, hit.positionWs, hit.positionLs);
         emissive = min(hit.emissiveNit * frame.exposure, vec3(kHalfMax));
     }

@@ -4,6 +4,7 @@
 #ifndef KILOLUX_SHARED_BVH_H
 #define KILOLUX_SHARED_BVH_H
 #include "base.h"
+#include "channels.h"
 
 KX_SHARED_BEGIN
 
@@ -70,11 +71,13 @@ struct BvhEntry {
     uint unused;
 };
 
-// Per instance: id of its first triangle, and its alpha record or this.
-KX_CONST uint ALPHA_RECORD_NONE = 0xFFFFFFFFu;
+// Per instance: id of its first triangle, and its alpha record or this. Above that the lighting channels of
+// its mesh.
+KX_CONST uint ALPHA_RECORD_NONE = 0x00FFFFFFu;
+KX_CONST uint TRACE_CHANNELS_SHIFT = 24u;
 struct TraceInstance {
     uint firstTriangle;
-    uint alphaRecord;
+    uint alphaRecordAndChannels;
 };
 
 KX_CONST uint ALPHA_WRAP_REPEAT = 0u;

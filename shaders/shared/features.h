@@ -20,7 +20,9 @@ const int FEATURE_MOVING_INSTANCES = 8; // some instance may move
 const int FEATURE_BARN_DOORS = 9;       // some rectangle light has flaps
 const int FEATURE_IES_PROFILES = 10;    // some light has a photometric profile
 const int FEATURE_LIGHT_FUNCTIONS = 11; // some light has a light function
-const int FEATURE_COUNT = 12;
+const int FEATURE_LIGHT_CHANNELS = 12;  // some light leaves out some mesh
+const int FEATURE_CHANNEL_SHADOWS = 13; // and shines through it
+const int FEATURE_COUNT = 14;
 
 // Choices of the frame that are specialization constants too, beyond the features.
 const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform block holds

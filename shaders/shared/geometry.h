@@ -15,7 +15,8 @@ KX_CONST uint INSTANCE_DOUBLE_SIDED = 2u;
 KX_CONST uint INSTANCE_ALPHA_TESTED = 4u;
 KX_CONST uint INSTANCE_HAS_TANGENTS = 8u;
 
-KX_CONST uint INSTANCE_MOVING = 16u; // its transform of the previous frame is in PreviousInstances
+KX_CONST uint INSTANCE_MOVING = 16u;         // its transform of the previous frame is in PreviousInstances
+KX_CONST uint INSTANCE_CHANNELS_SHIFT = 24u; // lighting channels of its mesh, 8 bits
 
 KX_CONST uint NO_OFFSET = 0xffffffffu;
 

@@ -5,6 +5,7 @@
 #ifndef KILOLUX_SHARED_GPU_LIGHT_H
 #define KILOLUX_SHARED_GPU_LIGHT_H
 #include "base.h"
+#include "channels.h"
 
 KX_SHARED_BEGIN
 
@@ -53,6 +54,6 @@ KX_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(kilolux::shared::LightHot) == 64);
 static_assert(sizeof(kilolux::shared::LightCold) == 20);
-static_assert(sizeof(kilolux::shared::LightShaping) == 92);
+static_assert(sizeof(kilolux::shared::LightShaping) == 100);
 #endif
 #endif

@@ -19,4 +19,6 @@ struct LightShaping {
     float functionPhase;
     vec4 functionMap;      // cos / scale, sin / scale of the pattern's turn; softness; strength
     vec3 functionOriginWs; // directional: the pattern's origin, m, relative to the anchor
+    uint channels;       // CHANNELS_LIMITED + those of the meshes that the light reaches, or CHANNELS_ALL
+    uint shadowChannels; // the same of the meshes that cast its shadow
 };

@@ -15,6 +15,6 @@ void main() {
     if (index >= push.rayCount) return;
     vec4 from = texelFetch(benchRays, int(index * 2u));
     vec4 to = texelFetch(benchRays, int(index * 2u + 1u));
-    Ray ray = Ray(from.xyz, 0.0, to.xyz, to.w);
+    Ray ray = makeRay(from.xyz, to.xyz, to.w);
     benchResults[index] = occluded(ray) ? 1u : 0u;
 }

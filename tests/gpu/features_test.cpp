@@ -58,8 +58,8 @@ class Features : public testing::TestWithParam<Feature> {};
 TEST_P(Features, WhatIsAbsentCostsNothing) {
     const Feature feature = GetParam();
     gpu::SpecValues others;
-    for (const int id :
-         {shared::FEATURE_BARN_DOORS, shared::FEATURE_IES_PROFILES, shared::FEATURE_LIGHT_FUNCTIONS})
+    for (const int id : {shared::FEATURE_BARN_DOORS, shared::FEATURE_IES_PROFILES,
+                         shared::FEATURE_LIGHT_FUNCTIONS, shared::FEATURE_LIGHT_CHANNELS})
         others[std::uint32_t(id)] = id == feature.id;
     gpu::SpecValues none = others;
     none[std::uint32_t(feature.id)] = 0;
@@ -71,7 +71,9 @@ TEST_P(Features, WhatIsAbsentCostsNothing) {
         std::printf("%s %s: %zu instructions with, %zu without\n", feature.name, file, with.instructions,
                     without.instructions);
         const bool inCulling = std::string(file) == "passes/cull_fine.comp";
-        if (inCulling && feature.id == shared::FEATURE_LIGHT_FUNCTIONS) continue; // they bound nothing
+        const bool bounds =
+            feature.id == shared::FEATURE_BARN_DOORS || feature.id == shared::FEATURE_IES_PROFILES;
+        if (inCulling && !bounds) continue;
         EXPECT_LT(without.instructions, with.instructions) << file;
         if (inCulling) continue;
         EXPECT_NE(with.text.find(feature.resource), std::string::npos) << file;
@@ -79,11 +81,19 @@ TEST_P(Features, WhatIsAbsentCostsNothing) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Features,
-                         testing::Values(Feature{"barn doors", shared::FEATURE_BARN_DOORS, "lightShapings"},
-                                         Feature{"profiles", shared::FEATURE_IES_PROFILES, "iesProfiles"},
-                                         Feature{"functions", shared::FEATURE_LIGHT_FUNCTIONS,
-                                                 "functionImages"}));
+INSTANTIATE_TEST_SUITE_P(
+    All, Features,
+    testing::Values(Feature{"barn doors", shared::FEATURE_BARN_DOORS, "lightShapings"},
+                    Feature{"profiles", shared::FEATURE_IES_PROFILES, "iesProfiles"},
+                    Feature{"functions", shared::FEATURE_LIGHT_FUNCTIONS, "functionImages"},
+                    Feature{"channels", shared::FEATURE_LIGHT_CHANNELS, "lightShapings"}));
+
+TEST(TraceFeatures, ChannelShadowsCostNothingWhereNoLightHasThem) {
+    const Result<gpu::ShaderCode> code = gpu::compileShader("passes/trace_samples.comp");
+    ASSERT_TRUE(code) << code.error();
+    gpu::SpecValues on{{shared::FEATURE_CHANNEL_SHADOWS, 1}}, off{{shared::FEATURE_CHANNEL_SHADOWS, 0}};
+    EXPECT_LT(specialized(code.value(), off).instructions, specialized(code.value(), on).instructions);
+}
 
 } // namespace
 } // namespace kilolux::test

@@ -21,7 +21,7 @@ void main() {
     if (index >= push.rayCount) return;
     vec4 from = texelFetch(testRays, int(index * 2u));
     vec4 to = texelFetch(testRays, int(index * 2u + 1u));
-    Ray ray = Ray(from.xyz, 0.0, to.xyz, to.w);
+    Ray ray = makeRay(from.xyz, to.xyz, to.w);
     Hit hit = nearest(ray);
     tracedRays[index] = TracedRay(hit.tM, hit.instance, hit.primitive, hit.barycentrics,
                                   (occluded(ray) ? 1u : 0u) | (hit.backFace ? 2u : 0u));

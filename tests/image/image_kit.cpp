@@ -83,7 +83,7 @@ PixelSurface FrameTargets::surface(std::size_t pixel) const {
     s.baseColor = root * root;
     const std::uint32_t rest = word<std::uint32_t>("gMaterial", pixel);
     s.roughness = (rest & 0xffffu) / 65535.0;
-    s.metallic = (rest >> 16) / 65535.0;
+    s.metallic = (rest >> 16 & 255u) / 255.0;
     return s;
 }
 

@@ -11,7 +11,8 @@
 #define FIELDS_LightCold(F) F(rayEndBiasM) F(penumbraScale) F(epoch) F(node) F(fluxLm)
 #define FIELDS_LightShaping(F) \
     F(doorReachM) F(doorDepthM) F(profile) F(profileIsShape) F(profileCosine) F(profileSide) F(profileSr) \
-    F(functionKind) F(functionImage) F(functionPhase) F(functionMap) F(functionOriginWs)
+    F(functionKind) F(functionImage) F(functionPhase) F(functionMap) F(functionOriginWs) \
+    F(channels) F(shadowChannels)
 #define FIELDS_FrameConstants(F) \
     F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
     F(size) F(outputSize) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
@@ -55,7 +56,7 @@
 #define FIELDS_BvhEntry(F) \
     F(linear0) F(linear1) F(linear2) F(pivotWs) F(pivotLs) F(gridMin) F(gridStep) F(rootRef) \
     F(firstTriangle) F(unused)
-#define FIELDS_TraceInstance(F) F(firstTriangle) F(alphaRecord)
+#define FIELDS_TraceInstance(F) F(firstTriangle) F(alphaRecordAndChannels)
 #define FIELDS_AlphaRecord(F) \
     F(firstTexel) F(width) F(height) F(flags) F(uvRow0) F(factor) F(uvRow1) F(cutoff) F(firstTriangle) \
     F(unused)
