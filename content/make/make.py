@@ -10,7 +10,7 @@ import sys
 import time
 
 SEEDED = "hidden_lights"
-SCENES = ("cornell", "gallery", "night_market", "half_hidden", "sun_room", "motion", "sampler",
+SCENES = ("cornell", "gallery", "night_market", "half_hidden", "sun_room", "motion", "sampler", "courtyard",
           *(f"{SEEDED}_{seed}" for seed in range(1, 6)))
 
 
