@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes the scenes and profiles that the project ships: make.py [--out FOLDER] [--ies FOLDER] [scene...], all
-of them without names. A name that ends in a number is its module's layout of that seed: hidden_lights_7. Needs Python 3 and numpy. The
-same bytes come out of every run."""
+of them without names. A name that ends in a number is its module's layout of that seed or so many lights: hidden_lights_7,
+crowd_10000. Needs Python 3 and numpy. The same bytes come out of every run."""
 import argparse
 import importlib
 import os
@@ -9,21 +9,26 @@ import re
 import sys
 import time
 
-SEEDED = "hidden_lights"
+NUMBERED = ("hidden_lights", "crowd")
 SCENES = ("cornell", "gallery", "night_market", "half_hidden", "sun_room", "motion", "sampler", "courtyard",
-          *(f"{SEEDED}_{seed}" for seed in range(1, 6)))
+          "moving_lights", "passing", "switched_on", "thin", "glossy", "crowd_1000",
+          *(f"hidden_lights_{seed}" for seed in range(1, 6)))
+
+
+def numbered(name):
+    return re.fullmatch(f"({'|'.join(NUMBERED)})_(\\d+)", name)
 
 
 def scene_name(text):
-    if text not in SCENES and not re.fullmatch(SEEDED + r"_\d+", text):
-        raise argparse.ArgumentTypeError(f"'{text}' is none of {', '.join(SCENES)} and no {SEEDED}_SEED")
+    if text not in SCENES and not numbered(text):
+        raise argparse.ArgumentTypeError(f"'{text}' is none of {', '.join(SCENES)} and no {'_N or '.join(NUMBERED)}_N")
     return text
 
 
 def build(name):
-    seeded = re.fullmatch(f"({SEEDED})_(\\d+)", name)
-    if seeded:
-        return importlib.import_module(seeded[1]).build(int(seeded[2]))
+    found = numbered(name)
+    if found:
+        return importlib.import_module(found[1]).build(int(found[2]))
     return importlib.import_module(name).build()
 
 
