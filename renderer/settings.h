@@ -51,7 +51,7 @@ struct Settings {
     bool compactRays = true;
     bool guiding = true;
     int listLength = 12;
-    int listMemory = 3;
+    int listMemory = 8;
     bool areaMasks = true;
     double maskHiddenShare = 0.1;
     double hiddenShare = 0.2;
@@ -59,10 +59,10 @@ struct Settings {
     double hiddenRelaxedBelow = 0.02;
     double directionalShare = 0.5;
     double directionalFreeBelow = 0.002;
-    int cellCandidates = 8;
+    int cellCandidates = 12;
     int missCandidates = 32;
     DimLights dimLights = DimLights::Roulette;
-    double dimThreshold = 0.0001;
+    double dimThreshold = 0.001;
     int resampleCandidates = 32;
     ResampleFrom resampleFrom = ResampleFrom::Cell;
     double reuseFrames = 20.0;

@@ -84,7 +84,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     cellFirst = cell.first;
     cellCount = cell.count;
     state.stride = cellStride(cell.count, missed ? how.missCandidates : how.cellCandidates);
-    uint offset = cellOffset(whiteNoise1(seed, 9u), state.stride);
+    uint offset = cellOffset(offsetNumber(stored, how.noiseFrame, frame.seed), state.stride);
 
     state.noise = pixelNoise(stored, how.noiseFrame, frame.seed);
     selection = beginSelection(state.noise.numbers, how.choices);

@@ -18,8 +18,7 @@ void expectUnbiased(const std::vector<Mode>& modes) {
     const Replicas reference = splitReference(scene, loopOptions(kWidth, kHeight));
     for (const Mode& mode : modes) {
         Loop loop(scene, loopOptions(kWidth, kHeight, mode.settings));
-        const int frames = mode.pixelsPerRay > 1 ? 2 : 4;
-        expectSameMean(gather(framesOf(loop, frames, mode.pixelsPerRay)), reference, mode.name);
+        expectSameMean(gather(framesOf(loop, 4, mode.pixelsPerRay)), reference, mode.name);
     }
 }
 
