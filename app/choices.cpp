@@ -2,6 +2,7 @@
 #include "app/choices.h"
 
 #include "renderer/nearest_name.h"
+#include "renderer/settings_presets.h"
 
 #include <algorithm>
 #include <charconv>
@@ -36,6 +37,33 @@ std::string settingsText() {
             text += fmt::format("  {:<20}   {:<16} {}\n", "", word.word, word.help);
     }
     return text;
+}
+
+std::string presetsText() {
+    std::string text = "Presets (--preset)\n";
+    for (const SettingsPreset& preset : settingsPresets()) {
+        text += fmt::format("  {:<20} {}\n", preset.name, preset.help);
+        text += fmt::format("  {:<20}   look: {}\n", "", preset.look);
+        if (!preset.values.empty()) text += fmt::format("  {:<20}   {}\n", "", fmt::join(preset.values, " "));
+    }
+    return text + "\n";
+}
+
+nlohmann::ordered_json presetsJson() {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array();
+    for (const SettingsPreset& preset : settingsPresets()) {
+        Settings settings;
+        applyPreset(settings, preset);
+        nlohmann::ordered_json values = nlohmann::ordered_json::object();
+        const nlohmann::json all = settingsJson(settings);
+        for (const std::string_view value : preset.values) {
+            const std::string key(value.substr(0, value.find('=')));
+            values[key] = all[key];
+        }
+        list.push_back(
+            {{"name", preset.name}, {"help", preset.help}, {"look", preset.look}, {"settings", values}});
+    }
+    return list;
 }
 
 nlohmann::ordered_json choicesJson(std::span<const NamedChoice> choices) {
@@ -87,10 +115,11 @@ std::optional<Error> checkName(std::string_view kind, std::string_view name,
 std::string listChoices(ListFormat format) {
     if (format == ListFormat::Text)
         return choicesText("Methods (--method)", Renderer::methods()) +
-               choicesText("Views (--view)", Renderer::views()) + settingsText();
+               choicesText("Views (--view)", Renderer::views()) + presetsText() + settingsText();
     nlohmann::ordered_json json;
     json["methods"] = choicesJson(Renderer::methods());
     json["views"] = choicesJson(Renderer::views());
+    json["presets"] = presetsJson();
     json["settings"] = settingRowsJson();
     return json.dump(2) + "\n";
 }
@@ -130,13 +159,15 @@ Result<PictureSize> parsePictureSize(std::string_view text) {
     return size;
 }
 
-std::optional<Error> applyPictureArguments(std::string_view size, std::span<const std::string> sets,
-                                           RenderOptions& options) {
+std::optional<Error> applyPictureArguments(std::string_view size, std::string_view preset,
+                                           std::span<const std::string> sets, RenderOptions& options) {
     const Result<PictureSize> parsed = parsePictureSize(size);
     if (!parsed) return Error{parsed.error()};
     options.width = parsed.value().width;
     options.height = parsed.value().height;
     if (auto error = checkChoice("method", options.method, Renderer::methods())) return error;
+    if (!preset.empty())
+        if (auto error = applyPreset(options.settings, preset)) return error;
     for (const std::string& set : sets)
         if (auto error = applySetting(options.settings, set)) return error;
     return std::nullopt;

@@ -29,9 +29,9 @@ struct PictureSize {
 };
 Result<PictureSize> parsePictureSize(std::string_view text);
 
-// What all rendering commands take: the size into `options`, the method checked, "key=value" settings
-// applied.
-std::optional<Error> applyPictureArguments(std::string_view size, std::span<const std::string> sets,
-                                           RenderOptions& options);
+// What all rendering commands take: the size into `options`, the method checked, the preset (empty: none) and
+// then "key=value" settings applied.
+std::optional<Error> applyPictureArguments(std::string_view size, std::string_view preset,
+                                           std::span<const std::string> sets, RenderOptions& options);
 
 } // namespace kilolux

@@ -3,6 +3,7 @@
 #include "app/commands.h"
 
 #include "renderer/bench/bench.h"
+#include "renderer/settings_presets.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::vector<std::string> scenes;
     std::string methods = "stochastic,restir,resampling,uniform";
+    bool presets = false;
     std::string size = "320x180", camera, folder, older;
     bench::BenchPlan plan;
 };
@@ -42,6 +44,14 @@ std::vector<std::string> splitAt(const std::string& text, char separator) {
         parts.push_back(text.substr(begin, end - begin));
     parts.push_back(text.substr(begin));
     return parts;
+}
+
+// The default first: the others are compared with it.
+std::string presetMethods() {
+    std::string list = fmt::format("stochastic:preset={}", presetOf(Settings{})->name);
+    for (const SettingsPreset& preset : settingsPresets())
+        if (&preset != presetOf(Settings{})) list += fmt::format(",stochastic:preset={}", preset.name);
+    return list;
 }
 
 // What repeats the run, defaults spelled out.
@@ -70,6 +80,7 @@ Problem checkArguments(Arguments& a) {
             return Failure{ExitCode::BadInput, fmt::format("'{}': no such file", scene)};
         a.plan.scenes.push_back({scene, a.camera});
     }
+    if (a.presets) a.methods = presetMethods();
     for (const std::string& text : splitAt(a.methods, ',')) {
         Result<bench::BenchMethod> method = bench::parseMethod(text);
         if (!method) return Failure{ExitCode::BadInput, fmt::format("--methods: {}", method.error())};
@@ -145,6 +156,7 @@ constexpr const char* kExamples = R"(Examples:
   kilolux bench gallery.glb night_market.glb -o report
   kilolux bench gallery.glb -o report --methods stochastic,restir:reuseUnbiased=true,stochastic:guiding=false
   kilolux bench gallery.glb -o report --compare old/bench.json
+  kilolux bench gallery.glb -o report --presets      cost and error of every quality preset
 
 The first method is what the others are compared with. Ctrl+C stops after the present step and writes what is done.)";
 
@@ -161,6 +173,8 @@ Command addBenchCommand(CLI::App& app) {
     bench->add_option("--methods", a.methods, "NAME or NAME:KEY=VALUE:..., by commas (see --list)")
         ->type_name("LIST")
         ->capture_default_str();
+    bench->add_flag("--presets", a.presets, "compare the quality presets in place of methods")
+        ->excludes("--methods");
     bench->add_option("--size", a.size, "in pixels")->type_name("WxH")->capture_default_str();
     bench->add_option("--camera", a.camera, "a camera that all scenes have (default: 'wide', else the first)")
         ->type_name("NAME");

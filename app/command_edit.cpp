@@ -4,6 +4,7 @@
 
 #include "renderer/document/edit_script.h"
 #include "renderer/document/file_replace.h"
+#include "renderer/settings_presets.h"
 #include "ui/window.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,7 @@ The list of edits is described in renderer/document/edits.md.)";
 
 struct EditOptions {
     std::string scene, script, output;
-    std::string state, size;
+    std::string state, size, preset;
     double uiScale = 0.0;
     bool list = false;
     bool json = false;
@@ -141,6 +142,11 @@ ExitCode openWindow(const EditOptions& options) {
     window.scene = options.scene;
     window.stateFile = options.state;
     window.uiScale = options.uiScale;
+    window.preset = options.preset;
+    if (Settings settings; !options.preset.empty()) {
+        if (const auto error = applyPreset(settings, options.preset))
+            return printError(error->message), ExitCode::BadInput;
+    }
     if (!options.size.empty()) {
         const Result<PictureSize> size = parsePictureSize(options.size);
         if (!size) return printError(size.error()), ExitCode::BadInput;
@@ -179,6 +185,8 @@ Command addEditCommand(CLI::App& app) {
     edit->add_option("--state", options->state, "write what the window shows as JSON, for tests and scripts")
         ->option_text("FILE");
     edit->add_option("--size", options->size, "of the window, in pixels")->option_text("WxH");
+    edit->add_option("--preset", options->preset, "quality of the window's picture (kilolux render --list)")
+        ->option_text("NAME");
     edit->add_option("--ui-scale", options->uiScale, "of fonts and spacing; by the screen without it")
         ->check(CLI::Range(0.5, 4.0));
     CLI::Option* list = edit->add_flag("--list", options->list, "list the fields that can be edited");

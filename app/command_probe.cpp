@@ -15,6 +15,7 @@ namespace {
 
 struct Arguments {
     std::string scene, pixel, size = "960x540";
+    std::string preset;
     std::vector<std::string> sets;
     RenderOptions options;
     glm::ivec2 at{0};
@@ -40,7 +41,7 @@ Problem checkArguments(Arguments& a) {
     if (a.scene.empty())
         return Failure{ExitCode::BadInput, "SCENE is missing; try: kilolux probe SCENE.glb --pixel 480,270"};
     RenderOptions& options = a.options;
-    if (Problem p = badInput(applyPictureArguments(a.size, a.sets, options))) return p;
+    if (Problem p = badInput(applyPictureArguments(a.size, a.preset, a.sets, options))) return p;
     if (Problem p = badInput(checkChoice("view", options.view, Renderer::views()))) return p;
     const std::optional<glm::ivec2> pixel = parsePixel(a.pixel);
     if (!pixel) {
@@ -143,6 +144,7 @@ Command addProbeCommand(CLI::App& app) {
         ->type_name("NAME");
     probe->add_option("--view", a.options.view, "whose raw value is told as well")->type_name("NAME");
     probe->add_option("--camera", a.options.camera, "a camera of the scene")->type_name("NAME");
+    probe->add_option("--preset", a.preset, "a quality preset, under what --set says")->type_name("NAME");
     probe->add_option("--set", a.sets, "a setting, any number of times (see --list)")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");

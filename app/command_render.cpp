@@ -24,6 +24,7 @@ struct Arguments {
     std::string size = "960x540";
     std::string statistics;
     std::string dumpFolder;
+    std::string preset;
     std::vector<std::string> sets;
     RenderOptions options;
     int frames = 0; // 0: what the method wants
@@ -54,7 +55,8 @@ Problem checkArguments(Arguments& arguments) {
     if (arguments.scene.empty())
         return Failure{ExitCode::BadInput, "SCENE is missing; try: kilolux render SCENE.glb -o OUT.png"};
     RenderOptions& options = arguments.options;
-    if (Problem p = as(ExitCode::BadInput, applyPictureArguments(arguments.size, arguments.sets, options)))
+    if (Problem p = as(ExitCode::BadInput,
+                       applyPictureArguments(arguments.size, arguments.preset, arguments.sets, options)))
         return p;
     const bool ofPass = options.view.starts_with("pass:"); // checked when the frame has run
     if (Problem p =
@@ -175,7 +177,7 @@ constexpr const char* kExamples = R"(Examples:
   kilolux render gallery.glb -o wide.exr --size 1280x720 --method true --frames 64
   kilolux render gallery.glb -o normals.png --view normal --camera close
   kilolux render gallery.glb -o dark.png --set exposureEv100=9 --set toneMap=none --stats dark.json
-  kilolux render --list            names of methods, views and settings, with what they do
+  kilolux render --list            names of methods, views, presets and settings, with what they do
 
 PNG is what the display shows; EXR and HDR hold linear light without exposure.)";
 
@@ -208,6 +210,8 @@ Command addRenderCommand(CLI::App& app) {
                      "what the picture shows (see --list), or pass:NAME for what a pass wrote")
         ->type_name("NAME");
     render->add_option("--camera", a.options.camera, "a camera of the scene")->type_name("NAME");
+    render->add_option("--preset", a.preset, "a quality preset, under what --set says (see --list)")
+        ->type_name("NAME");
     render->add_option("--set", a.sets, "a setting, any number of times (see --list)")
         ->allow_extra_args(false)
         ->type_name("KEY=VALUE");
@@ -215,7 +219,7 @@ Command addRenderCommand(CLI::App& app) {
     render->add_option("--dump", a.dumpFolder, "write every target of the last frame as EXR into this folder")
         ->type_name("FOLDER");
     render->add_flag("--half", a.half, "EXR in 16-bit floats");
-    render->add_flag("--list", a.list, "list methods, views and settings");
+    render->add_flag("--list", a.list, "list methods, views, presets and settings");
     render->add_flag("--json", a.json, "with --list: as JSON")->needs("--list");
     render->add_flag("-v,--verbose", a.verbose, "tell progress, times and memory on stderr");
     render->footer(kExamples);

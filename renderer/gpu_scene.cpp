@@ -241,6 +241,7 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
         constexpr std::uint64_t kUnnamed = std::uint64_t(1) << 63;
         const std::uint64_t id = scene.lights[i].id;
         ids.push_back(id != 0 ? id : kUnnamed + i);
+        lights.cold[i].penumbraScale *= float(penumbraScale_);
         if (i < offsetsM.size()) lights.hot[i].positionWs += glm::vec3(offsetsM[i]);
     }
     derivedRanges_ = lights.derivedRanges;

@@ -40,6 +40,9 @@ class GpuScene {
                       const std::vector<glm::dvec3>& offsetsM = {}, double timeS = 0.0);
     // Takes over the lighting channels of the meshes; whether any has changed. The device must be idle.
     bool updateChannels(const Scene& scene);
+    // Of all lights' sources as shadow rays see them, from the next updateLights() on; true: it is another
+    // one.
+    bool setPenumbraScale(double scale) { return std::exchange(penumbraScale_, scale) != scale; }
     // Takes over the transforms of the instances that create() was told may move; what they were becomes the
     // previous one. Once a frame, also when nothing moved. The device must be idle.
     void updateMovingInstances(const Scene& scene);
@@ -96,6 +99,7 @@ class GpuScene {
     std::vector<shared::GpuInstance> gpuInstances_;
     std::vector<shared::InstanceRows> previousRows_; // only where some move
     std::uint32_t lightCount_ = 0;
+    double penumbraScale_ = 1.0;
     int derivedRanges_ = 0;
     std::size_t triangles_ = 0;
     gpu::Buffer vertexBuffer_, indexBuffer_, uv1Buffer_, instanceBuffer_, materialBuffer_;

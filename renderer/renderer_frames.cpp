@@ -61,6 +61,7 @@ void Renderer::Impl::updateScene(double timeS) {
         return def.function.kind == LightFunctionKind::Caustics ||
                def.function.kind == LightFunctionKind::Flicker;
     });
+    if (gpuScene->setPenumbraScale(options.settings.penumbraScale)) lightsDirty = true;
     if (!lightsDirty && !fading && !swaying && !flowing && scene.animations.empty()) return;
     if (lightsDirty && gpuScene->updateChannels(scene)) historyReset = "lighting channels";
     gpuScene->updateLights(scene, exposureEv100, framesRun,

@@ -2,6 +2,7 @@
 #include "renderer/settings.h"
 
 #include "renderer/nearest_name.h"
+#include "renderer/settings_presets.h"
 
 #include <charconv>
 #include <cmath>
@@ -127,6 +128,7 @@ std::optional<Error> applySetting(Settings& settings, std::string_view keyValue)
     const std::size_t equals = keyValue.find('=');
     if (equals == std::string_view::npos || equals == 0)
         return Error{fmt::format("setting '{}': expected key=value", keyValue)};
+    if (keyValue.substr(0, equals) == "preset") return applyPreset(settings, keyValue.substr(equals + 1));
     const SettingRow* row = findSetting(keyValue.substr(0, equals));
     if (!row) return unknownSetting(keyValue.substr(0, equals));
     const std::string_view value = keyValue.substr(equals + 1);

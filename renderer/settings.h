@@ -39,6 +39,7 @@ struct Settings {
     AutoNumber exposureEv100;
     double raysPerPixel = 1.0;
     int raysPerLight = 1;
+    double penumbraScale = 1.0;
     bool lightGrid = true;
     int gridThreadLights = 256;
     bool jitter = true;
@@ -131,8 +132,9 @@ const SettingRow* findSetting(std::string_view name);
 // ---------------------------------------------------------------------------------------------------------
 // Text and JSON
 
-// Applies one "key=value". The message of the error names the key, the value, and what was expected: the
-// nearest known key, the range with its unit, or the words of the choice. On error `settings` is untouched.
+// Applies one "key=value"; "preset=NAME" is the preset of that name. The message of the error names the key,
+// the value, and what was expected: the nearest known key, the range with its unit, or the words of the
+// choice. On error `settings` is untouched.
 std::optional<Error> applySetting(Settings& settings, std::string_view keyValue);
 
 // Applies an object { name: value, ... }, all or nothing. Words and "auto" are strings.

@@ -89,6 +89,14 @@ constexpr std::array kRows = {
                .max = 16,
                .unit = "rays per light, pixel and frame",
                .help = "shadow rays of all-lights and of the references"},
+    SettingRow{.name = "penumbraScale",
+               .member = &Settings::penumbraScale,
+               .min = 0.0,
+               .max = 4.0,
+               .unit = "of the sources' size",
+               .help =
+                   "how large all lights are for shadow rays: below 1 shadows are sharper and less noisy; "
+                   "light without shadow stays"},
     SettingRow{.name = "lightGrid",
                .member = &Settings::lightGrid,
                .help = "cull lights into cells of the view; off walks all lights for the same picture"},

@@ -28,6 +28,7 @@ struct CameraMenuState;
 struct ViewPanelState;
 struct ProbeState;
 struct ReferenceState;
+struct QualityState;
 
 enum class Tool { Select, Move, Rotate, Scale };
 enum class GizmoSpace { World, Local, View };
@@ -124,6 +125,7 @@ struct Desk {
     std::shared_ptr<ViewPanelState> viewPanel;
     std::shared_ptr<ProbeState> probe;
     std::shared_ptr<ReferenceState> reference;
+    std::shared_ptr<QualityState> quality;
 
     const Scene* scene() const { return session ? &session->scene() : nullptr; }
     bool isSelected(std::uint64_t light) const;

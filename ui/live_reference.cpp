@@ -64,6 +64,7 @@ struct LiveReference::Impl {
     std::optional<ReferenceView> wanted;
     std::shared_ptr<const Picture> shown;
     std::uint64_t shownKey = 0;
+    MeasuredPicture shownIs;
     bool resting = false, stopping = false, givenUp = false;
     State state;
     TaskWatch watch; // of what is prepared
@@ -84,7 +85,7 @@ struct LiveReference::Impl {
     }
     void prepare(ReferenceView view);
     void renderOne();
-    void measure(const Picture& picture, std::uint64_t key);
+    void measure(const Picture& picture, std::uint64_t key, MeasuredPicture of);
     template<typename Change>
     void tell(Change change) {
         {
@@ -144,11 +145,12 @@ void LiveReference::Impl::renderOne() {
     });
 }
 
-void LiveReference::Impl::measure(const Picture& picture, std::uint64_t key) {
+void LiveReference::Impl::measure(const Picture& picture, std::uint64_t key, MeasuredPicture of) {
     const Picture reference = renderer->picture();
     if (reference.width != picture.width || reference.height != picture.height) return;
     auto report = std::make_shared<ErrorReport>(measureError(reference, picture));
     report->key = key;
+    report->of = std::move(of);
     report->frames = renderer->meanFrames();
     tell([&](State& s) { s.report = std::move(report); });
 }
@@ -174,10 +176,11 @@ void LiveReference::Impl::loop() {
         std::shared_ptr<const Picture> picture = view ? nullptr : std::exchange(shown, nullptr);
         const bool measures = picture && renderer && shownKey == state.key && state.frames > 0;
         const std::uint64_t key = shownKey;
+        MeasuredPicture of = shownIs;
         const bool renders = !resting && state.frames < kMostFrames;
         lock.unlock();
         if (view) prepare(std::move(*view));
-        if (measures) measure(*picture, key);
+        if (measures) measure(*picture, key, std::move(of));
         if (!view && renderer && renders) renderOne();
         lock.lock();
     }
@@ -227,11 +230,12 @@ void LiveReference::setResting(bool resting) {
     impl_->condition.notify_one();
 }
 
-void LiveReference::compare(std::shared_ptr<const Picture> shown, std::uint64_t key) {
+void LiveReference::compare(std::shared_ptr<const Picture> shown, std::uint64_t key, MeasuredPicture of) {
     {
         const std::lock_guard lock(impl_->mutex);
         impl_->shown = std::move(shown);
         impl_->shownKey = key;
+        impl_->shownIs = std::move(of);
     }
     impl_->condition.notify_one();
 }

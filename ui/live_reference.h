@@ -21,8 +21,16 @@ struct ReferenceView {
     std::uint64_t key = 0; // the caller's name for all of this
 };
 
+// What a picture was that is measured, for who asked.
+struct MeasuredPicture {
+    std::uint32_t frames = 0; // in its mean
+    double frameMs = 0.0;     // that one of them takes
+    std::string preset;       // of its settings
+};
+
 struct ErrorReport {
     std::uint64_t key = 0;
+    MeasuredPicture of;
     std::uint32_t frames = 0;            // that the reference's mean held
     double relativeMse = 0.0;            // linear light, epsilon 0.01 of the mean's square
     double flipMean = 0.0, flip95 = 0.0; // LDR-FLIP of what the display shows, 67 pixels per degree
@@ -46,7 +54,7 @@ class LiveReference {
     // While the picture moves the cores are its own.
     void setResting(bool resting);
     // Measures a picture of the view named by `key` against the mean so far.
-    void compare(std::shared_ptr<const Picture> shown, std::uint64_t key);
+    void compare(std::shared_ptr<const Picture> shown, std::uint64_t key, MeasuredPicture of = {});
 
     struct State {
         std::uint64_t key = 0;

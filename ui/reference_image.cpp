@@ -1,7 +1,9 @@
 // Stored picture, split view and live error in the window; see reference_image.h.
 #include "ui/reference_image.h"
 
+#include "renderer/settings_presets.h"
 #include "ui/panels.h"
+#include "ui/quality_part.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -24,7 +26,7 @@ ReferenceState& state(Desk& desk) {
 // Names all that a reference depends on.
 std::uint64_t viewKey(const Desk& desk, const std::string& method) {
     const ShownFrame& shown = *desk.shown;
-    std::uint64_t key = std::hash<std::string>{}(method) ^ settingsHash(desk.settings);
+    std::uint64_t key = std::hash<std::string>{}(method) ^ settingsHash(referenceSettings(desk.settings));
     const auto add = [&key](std::uint64_t word) { key = (key ^ word) * 1099511628211ull + (key >> 29); };
     add(shown.documentVersion);
     add(std::uint64_t(shown.width) << 32 | std::uint64_t(shown.height));
@@ -39,20 +41,21 @@ std::uint64_t viewKey(const Desk& desk, const std::string& method) {
 ReferenceView referenceView(const Desk& desk, const std::string& method, std::uint64_t key) {
     ReferenceView view{*desk.scene(), {}, desk.shown->camera, desk.exposureEv100, key};
     view.options.method = method;
-    view.options.settings = desk.settings;
-    view.options.settings.renderScale = 1.0;
+    view.options.settings = referenceSettings(desk.settings);
     view.options.width = desk.shown->width;
     view.options.height = desk.shown->height;
     return view;
 }
 
-// Keeps the reference on the view that is shown, and has the picture measured whenever its mean has doubled.
+// Keeps the reference on the view that is shown, and has the picture measured whenever one of their means has
+// doubled.
 void followLive(Desk& desk) {
     ReferenceState& ref = state(desk);
     if (!ref.measures) return;
     const ShownFrame& shown = *desk.shown;
-    const bool still = shown.renderScale == desk.settings.renderScale && shown.meanFrames >= kStillFrames &&
-                       shown.documentVersion == desk.session->version() && desk.view.empty();
+    const bool still = shown.settings == desk.settings && shown.renderScale == desk.settings.renderScale &&
+                       shown.meanFrames >= kStillFrames && shown.documentVersion == desk.session->version() &&
+                       desk.view.empty();
     ref.live->setResting(!still);
     const LiveReference::State live = ref.live->state();
     if (live.report != ref.report) {
@@ -63,18 +66,28 @@ void followLive(Desk& desk) {
     const std::uint64_t key = viewKey(desk, ref.method);
     if (key != ref.wantedKey) {
         ref.wantedKey = key;
-        ref.comparedFrames = 0;
+        ref.comparedFrames = ref.comparedMean = 0;
         ref.comparing = false;
         ref.report.reset();
         ref.live->begin(referenceView(desk, ref.method, key));
-    } else if (live.key == key && !ref.comparing && live.frames >= std::max(1u, 2 * ref.comparedFrames)) {
-        ref.comparing = true;
-        ref.comparedFrames = live.frames;
-        desk.renderThread->post([reference = std::weak_ptr(ref.live), key](Renderer& renderer) {
-            const auto picture = std::make_shared<Picture>(renderer.picture());
-            if (const auto there = reference.lock()) there->compare(picture, key);
-        });
+        return;
     }
+    // Either of them has twice as many frames, or the picture has begun anew.
+    const std::string preset = presetName(shown.settings);
+    const bool due = live.frames >= std::max(1u, 2 * ref.comparedFrames) ||
+                     shown.meanFrames >= 2 * ref.comparedMean || shown.meanFrames < ref.comparedMean ||
+                     preset != ref.comparedPreset;
+    if (live.key != key || live.frames == 0 || ref.comparing || !due) return;
+    ref.comparing = true;
+    ref.comparedFrames = live.frames;
+    ref.comparedMean = shown.meanFrames;
+    ref.comparedPreset = preset;
+    const MeasuredPicture of{0, shown.statistics.frameMs, preset};
+    desk.renderThread->post([reference = std::weak_ptr(ref.live), key, of](Renderer& renderer) {
+        const auto picture = std::make_shared<Picture>(renderer.picture());
+        const auto there = reference.lock();
+        if (there) there->compare(picture, key, {renderer.meanFrames(), of.frameMs, of.preset});
+    });
 }
 
 void stopMeasuring(Desk& desk) {
@@ -227,6 +240,13 @@ void drawSplitLine(Desk& desk, ImDrawList& canvas) {
 
 } // namespace
 
+Settings referenceSettings(const Settings& settings) {
+    Settings best = settings;
+    applyPreset(best, "high"); // the default: what references make of the rest does not matter
+    best.renderScale = 1.0;
+    return best;
+}
+
 void drawReferencePart(Desk& desk) {
     drawModes(desk);
     drawLive(desk);
@@ -276,6 +296,7 @@ void drawErrorLegend(Desk& desk, ImDrawList& canvas) {
 void drawReferenceOverlay(Desk& desk, ImDrawList& canvas) {
     ReferenceState& ref = state(desk);
     followLive(desk);
+    followQuality(desk);
     compose(desk);
     if (ref.mode == Comparing::Split && ref.composed) drawSplitLine(desk, canvas);
     if (ref.mode == Comparing::Error && ref.composed) drawErrorLegend(desk, canvas);

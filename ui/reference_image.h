@@ -28,6 +28,8 @@ struct ReferenceState {
     std::string method = "split";
     std::uint64_t wantedKey = 0;
     std::uint32_t comparedFrames = 0; // of the reference, when a picture was last measured
+    std::uint32_t comparedMean = 0;   // of that picture
+    std::string comparedPreset;
     bool comparing = false;
     std::shared_ptr<const ErrorReport> report;
 
@@ -37,6 +39,10 @@ struct ReferenceState {
     double composedAt = 0.0;
     Comparing composedMode = Comparing::Off;
 };
+
+// What a reference is rendered with: the settings as they are, but of the best quality, so that all presets
+// are measured against one.
+Settings referenceSettings(const Settings& settings);
 
 // Left of `at` (a share of the width) `left`, right of it `right`, which gives the size.
 std::shared_ptr<const ShownFrame> splitPicture(const ShownFrame& left, const ShownFrame& right, double at);

@@ -203,6 +203,7 @@ void RenderThread::Impl::publish(double beginMs) {
     frame->height = options.height;
     frame->rgba8 = renderer->displayPixels();
     frame->documentVersion = version;
+    frame->settings = options.settings;
     frame->renderScale = scale;
     frame->requestedMs = std::exchange(requestedMs, 0.0);
     frame->meanFrames = renderer->meanFrames();

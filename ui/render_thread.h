@@ -20,6 +20,7 @@ struct ShownFrame {
     int height = 0;
     std::vector<std::byte> rgba8; // as the display shows it, 4 bytes a pixel
     std::uint64_t documentVersion = 0;
+    Settings settings; // that it was rendered with, but for the scale
     double renderScale = 1.0;
     double frameMs = 0.0;     // from taking the request to the picture
     double requestedMs = 0.0; // when the newest request in it was made, by the steady clock; 0: nothing new

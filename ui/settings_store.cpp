@@ -41,6 +41,7 @@ void visit(Io& io, Remembered& r) {
     io("sliceMs", r.limits.sliceMs, 0.0, 1000.0);
     io("restMs", r.limits.restMs, 0.0, 10000.0);
     io("mostPixels", r.limits.mostPixels, 0u, 1u << 26);
+    io("preset", r.preset);
 }
 
 struct Reader {
@@ -49,6 +50,10 @@ struct Reader {
     void operator()(const char* name, bool& value) const {
         const auto found = json.find(name);
         if (found != json.end() && found->is_boolean()) value = found->get<bool>();
+    }
+    void operator()(const char* name, std::string& value) const {
+        const auto found = json.find(name);
+        if (found != json.end() && found->is_string()) value = found->get<std::string>();
     }
     template<typename T>
     void operator()(const char* name, T& value, T least, T most) const {
@@ -63,6 +68,7 @@ struct Writer {
     Json json = Json::object();
 
     void operator()(const char* name, bool value) { json[name] = value; }
+    void operator()(const char* name, const std::string& value) { json[name] = value; }
     template<typename T>
     void operator()(const char* name, T value, T, T) {
         json[name] = value;

@@ -18,6 +18,7 @@ struct Remembered {
     Snapping snapping;
     double gizmoSizePx = 88.0;
     RenderLimits limits;
+    std::string preset;              // of quality; empty: the default, or settings of one's own
     std::vector<std::string> recent; // scenes, the newest first
     // Names of the lights that are not to be picked, by recent scene. They are no part of the file: who locks
     // lights keeps their own hands off them.

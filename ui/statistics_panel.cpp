@@ -2,6 +2,7 @@
 // what the picture suffers from.
 #include "ui/cost_notes.h"
 #include "ui/panels.h"
+#include "ui/quality_part.h"
 #include "ui/theme.h"
 #include "ui/view_choice.h"
 #include "ui/widgets.h"
@@ -106,6 +107,7 @@ void drawStatisticsPanel(Desk& desk) {
         ImGui::TextUnformatted(note.text.c_str());
         ImGui::PopTextWrapPos();
     }
+    drawQualityPart(desk);
     ImGui::PushFont(theme::smallFont());
     drawPasses(desk, s);
     drawMemory(desk, s);

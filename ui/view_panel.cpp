@@ -5,6 +5,7 @@
 #include "renderer/document/light_units.h"
 #include "ui/panels.h"
 #include "ui/probe_panel.h"
+#include "ui/quality_part.h"
 #include "ui/reference_image.h"
 #include "ui/theme.h"
 #include "ui/view_choice.h"
@@ -236,6 +237,7 @@ void drawViewPanel(Desk& desk) {
     drawPointer(desk);
     ImGui::Separator();
     drawReferencePart(desk);
+    drawErrorPlot(desk);
     ImGui::Separator();
     drawExport(desk);
     ImGui::Separator();
@@ -274,11 +276,13 @@ nlohmann::json viewPanelState(const Desk& desk) {
     }
     if (const ReferenceState* ref = desk.reference.get()) {
         json["comparing"] = int(ref->mode);
+        json["referenceFrames"] = ref->live ? ref->live->state().frames : 0;
         if (ref->report)
             json["error"] = {{"flip", ref->report->flipMean},
                              {"relativeMse", ref->report->relativeMse},
                              {"frames", ref->report->frames}};
     }
+    json["quality"] = qualityState(desk);
     return json;
 }
 

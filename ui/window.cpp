@@ -1,11 +1,13 @@
 // The loop of the UI thread, see window.h.
 #include "ui/window.h"
 
+#include "renderer/settings_presets.h"
 #include "ui/file_tasks.h"
 #include "ui/glfw_input.h"
 #include "ui/imgui_host.h"
 #include "ui/layout.h"
 #include "ui/panels.h"
+#include "ui/quality_part.h"
 #include "ui/reference_image.h"
 #include "ui/state_file.h"
 #include "ui/theme.h"
@@ -98,6 +100,8 @@ std::optional<Error> Window::open() {
     desk_.snapping = files.remembered.snapping;
     desk_.gizmoSizePx = files.remembered.gizmoSizePx;
     desk_.limits = files.remembered.limits;
+    const std::string& preset = options_.preset.empty() ? files.remembered.preset : options_.preset;
+    if (const SettingsPreset* found = findPreset(preset)) applyPreset(desk_.settings, *found);
     desk_.recordsPlaces = state_.isWanted();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     const int width = options_.width > 0 ? options_.width : files.remembered.windowWidth;
@@ -276,6 +280,7 @@ void Window::remember() {
     remembered.snapping = desk_.snapping;
     remembered.gizmoSizePx = desk_.gizmoSizePx;
     remembered.limits = desk_.limits;
+    remembered.preset = presetName(desk_.settings);
     // Remembering is a convenience: a folder that cannot be written to is no reason to stay.
     writeRemembered(files.rememberedPath, remembered);
 }

@@ -15,6 +15,7 @@ struct WindowOptions {
     int width = 0;         // pixels; 0: as it was last time
     int height = 0;
     double uiScale = 0.0; // of fonts and spacing; 0: by the screen
+    std::string preset;   // of quality (settings_presets.h); empty: as it was last time
 };
 
 // Returns when the user has closed the window. Errors: no display, no device that can present.

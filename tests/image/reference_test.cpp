@@ -82,6 +82,22 @@ TEST(Reference, ShapedLightsAgree) {
     expectBothAgree(stageScene(shapedLights()), {.raysPerLight = 8});
 }
 
+// The setting scales every light's own; light that nothing shadows stays.
+TEST(Reference, ThePenumbraSettingIsThatOfEveryLight) {
+    std::vector<LightCase> halved = {lightCases()[0], lightCases()[2]};
+    const Scene scene = stageScene(halved);
+    for (LightCase& light : halved)
+        light.def.penumbraScale = 0.5;
+    const auto picture = [](const Scene& of, const char* setting) {
+        RenderOptions options = smallOptions(64, 48, {setting, "raysPerLight=4"});
+        options.method = "all-lights";
+        return renderScene(of, options).picture.rgb;
+    };
+    const std::vector<float> bySetting = picture(scene, "penumbraScale=0.5");
+    EXPECT_EQ(bySetting, picture(stageScene(halved), "penumbraScale=1"));
+    EXPECT_NE(bySetting, picture(scene, "penumbraScale=1"));
+}
+
 TEST(Reference, BothGBuffersAgree) {
     const Scene scene = stageScene({lightCases()[0], lightCases()[4]});
     // What a method makes of a G-buffer does not depend on who filled it.

@@ -5,7 +5,7 @@ picture with its split view, and the error against the live reference. KILOLUX_U
 import os
 
 from window_case import WindowCase, main
-from window_driver import wait_for
+from window_driver import WHEEL_DOWN, wait_for
 
 
 class Views(WindowCase):
@@ -146,9 +146,33 @@ class Views(WindowCase):
         self.window.wait(lambda s: s["viewPanel"]["comparing"] == 3, "the map of the error")
         self.picture("error")
         self.check_map(self.window.wait_place("reference.legend"))
+        self.window.click("reference.map")
+        self.check_presets()
         self.window.click("reference.stop")
         state = self.window.wait(lambda s: s["viewPanel"]["comparing"] == 0, "the picture")
         self.assertNotIn("error", state["viewPanel"], "what was measured is given up")
+
+    def check_presets(self):
+        """A preset is chosen by its row; each has a curve, whose error falls."""
+        self.window.wait(lambda s: len(s["viewPanel"]["quality"]["curves"].get("high", [])) > 0, "a first point")
+        self.window.wait_place("quality.plot")
+        for preset in ("draft", "high"):
+            x, y, w, h = self.window.wait_place(f"quality.{preset}")
+            for _ in range(20):
+                if y + h < self.shared.size[1] - 30:
+                    break
+                self.window.click((x + 40, self.shared.size[1] / 2), button=WHEEL_DOWN)
+                x, y, w, h = self.window.wait_place(f"quality.{preset}")
+            self.window.click((x + 20, y + h / 2))
+            self.window.wait(lambda s: s["viewPanel"]["quality"]["preset"] == preset, f"the preset {preset}")
+            state = self.window.wait(lambda s: s["picture"]["settled"] and
+                                     s["viewPanel"]["quality"]["curves"].get(preset), f"a point of {preset}")
+            for frames, seconds, error in state["viewPanel"]["quality"]["curves"][preset]:
+                self.assertGreaterEqual(frames, 4)
+                self.assertGreater(seconds, 0.0)
+                self.assertGreater(error, 0.0)
+        self.assertEqual(set(state["viewPanel"]["quality"]["curves"]), {"draft", "high"})
+        self.picture("quality")
 
     def check_map(self, legend):
         """Every pixel of the map has a colour of its legend, and there are several."""

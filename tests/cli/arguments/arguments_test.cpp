@@ -64,7 +64,8 @@ TEST_F(Arguments, ListTellsTheSameAsTextAndJson) {
     EXPECT_TRUE(namesIn(list["methods"]).contains("all-lights"));
     EXPECT_GE(list["views"].size(), 1u);
     EXPECT_TRUE(namesIn(list["settings"]).contains("exposureEv100"));
-    for (const char* kind : {"methods", "views", "settings"})
+    EXPECT_TRUE(namesIn(list["presets"]).contains("draft"));
+    for (const char* kind : {"methods", "views", "presets", "settings"})
         for (const nlohmann::json& entry : list[kind]) {
             EXPECT_NE(entry["help"], "") << entry;
             EXPECT_NE(text.out.find("\n  " + entry["name"].get<std::string>() + " "), std::string::npos)
@@ -111,7 +112,8 @@ TEST_F(Arguments, NumbersOutOfRange) {
 
 TEST_F(Arguments, UnknownNamesListTheChoices) {
     const nlohmann::json list = nlohmann::json::parse(run({"--list", "--json"}).out);
-    for (const auto& [option, kind] : {std::pair{"method", "methods"}, std::pair{"view", "views"}}) {
+    for (const auto& [option, kind] :
+         {std::pair{"method", "methods"}, std::pair{"view", "views"}, std::pair{"preset", "presets"}}) {
         std::vector<std::string> parts{"unknown " + std::string(option) + " 'zzzzzzzz'"};
         for (const std::string& name : namesIn(list[kind]))
             parts.push_back(name);

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace kilolux {
 namespace {
@@ -53,6 +54,23 @@ TEST_F(BenchCommand, MeasuresMethodsAgainstOneAnother) {
     const ProgramRun again = bench({"--methods", "stochastic", "--compare", "report/bench.json"});
     EXPECT_EQ(again.exitCode, 0) << again.err;
     EXPECT_NE(again.out.find("cornell.glb, stochastic: time x"), std::string::npos) << again.out;
+}
+
+TEST_F(BenchCommand, PresetsAreMeasuredAgainstTheDefault) {
+    const ProgramRun result = bench({"--presets"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const nlohmann::json json = report();
+    const nlohmann::json& methods = json.at("scenes").at(0).at("methods");
+    ASSERT_GE(methods.size(), 4u);
+    EXPECT_EQ(methods.at(0).at("statistics").at("settings").at("raysPerPixel"), 1.0);
+    std::set<double> rays;
+    for (const nlohmann::json& method : methods) {
+        EXPECT_FALSE(method.contains("error")) << method.dump(2);
+        rays.insert(method.at("statistics").at("settings").at("raysPerPixel").get<double>());
+        EXPECT_GT(method.at("filtered").at(0).at("lightingMs").get<double>(), 0.0);
+        EXPECT_GT(method.at("filtered").at(0).at("points").back().at("relativeMse").get<double>(), 0.0);
+    }
+    EXPECT_GE(rays.size(), 3u);
 }
 
 TEST_F(BenchCommand, BadInputIsToldBeforeTheWork) {

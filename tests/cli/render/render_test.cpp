@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace kilolux {
@@ -103,6 +104,19 @@ TEST_F(RenderCommand, SameSeedSameBytes) {
     render({"-o", "c.exr", "--frames", "2", "--seed", "6"});
     EXPECT_EQ(pixels("a.exr"), pixels("b.exr"));
     EXPECT_NE(pixels("a.exr"), pixels("c.exr"));
+}
+
+TEST_F(RenderCommand, APresetIsItsSettingsUnderThoseThatAreSet) {
+    render({"-o", "preset.exr", "--frames", "2", "--preset", "draft", "--set", "raysPerPixel=1", "--stats",
+            "p.json"});
+    render({"-o", "set.exr", "--frames", "2", "--set", "preset=draft", "--set", "raysPerPixel=1"});
+    render({"-o", "plain.exr", "--frames", "2", "--set", "raysPerPixel=1"});
+    EXPECT_EQ(pixels("preset.exr"), pixels("set.exr"));
+    EXPECT_NE(pixels("preset.exr"), pixels("plain.exr"));
+    std::ifstream file(folder_ / "p.json");
+    const nlohmann::json settings = nlohmann::json::parse(file).at("settings");
+    EXPECT_EQ(settings.at("raysPerPixel"), 1.0);
+    EXPECT_EQ(settings.at("sampling"), "rooks");
 }
 
 TEST_F(RenderCommand, ExposureChangesTheDisplayOnly) {

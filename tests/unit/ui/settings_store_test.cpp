@@ -29,6 +29,7 @@ Remembered everythingChanged() {
     r.snapping = {true, 0.25, 7.5, 0.5};
     r.gizmoSizePx = 120.0;
     r.limits = {55.0, 0.45, 12, 123'456, 7.5, 333.0};
+    r.preset = "draft";
     r.recent = {"/a.glb", "/b \"quoted\".glb"};
     r.locked = {{"/a.glb", {"Lamp", "L\xC3\xA4mp"}}};
     return r;
