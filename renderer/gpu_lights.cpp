@@ -2,6 +2,7 @@
 #include "renderer/gpu_lights.h"
 
 #include "renderer/document/light_units.h"
+#include "renderer/dome_maps.h"
 #include "renderer/light_shaping.h"
 #include "renderer/lights_cpp/lights_f64.h"
 
@@ -194,6 +195,10 @@ double deriveExposureEv100(const Scene& scene) {
                          << shared::LIGHT_SHAPING_SHIFT;
         lights.push_back(inDouble(hot));
     }
+    if (domeShines(scene.dome)) {
+        tables.dome = domeMapsOf(scene.dome.image);
+        lights.push_back(inDouble(domeRecord(scene.dome, *tables.dome)));
+    }
     const BindLightTables bound(tables);
     if (lights.empty()) return 0.0;
     // A thousand points times the lights, bounded for scenes of ten thousand lights.
@@ -246,6 +251,12 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         cold.node = std::uint32_t(slot);
         cold.fluxLm = float(fluxLumen(def) * luminanceOf(emittedColor(def)));
         result.cold.push_back(cold);
+    }
+    if (domeShines(scene.dome)) {
+        result.tables.dome = domeMapsOf(scene.dome.image);
+        result.hot.push_back(domeRecord(scene.dome, *result.tables.dome));
+        result.cold.push_back({.penumbraScale = 1.0f, .node = std::uint32_t(scene.lights.size())});
+        result.rangeDerived.push_back(false);
     }
     return result;
 }

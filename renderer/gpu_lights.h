@@ -27,8 +27,11 @@ double exposureFromEv100(double ev100);
 // unshadowed illuminance at points spread over the geometry. EV100 of 0 for scenes without light.
 double deriveExposureEv100(const Scene& scene);
 
+// What names the dome among lights; no LightNode::id is as high.
+inline constexpr std::uint64_t kDomeLightId = std::uint64_t(1) << 62;
+
 struct GpuLights {
-    std::vector<shared::LightHot> hot; // one per slot: Scene::lights in order
+    std::vector<shared::LightHot> hot; // Scene::lights in order, then the dome where it shines
     std::vector<shared::LightCold> cold;
     std::vector<char> rangeDerived; // of each: its range follows from the exposure
     LightTables tables;             // whose shapings some of the hot records point to

@@ -1,6 +1,7 @@
 // Scene upload, see gpu_scene.h. Textures are in gpu_textures.cpp.
 #include "renderer/gpu_scene.h"
 
+#include "renderer/dome_maps.h"
 #include "renderer/gpu_lights.h"
 #include "renderer/gpu_textures.h"
 #include "renderer/light_powers.h"
@@ -239,7 +240,7 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
     for (std::size_t i = 0; i < lights.hot.size(); ++i) {
         // Lights made in memory may have no name yet: their place in the scene stands for it.
         constexpr std::uint64_t kUnnamed = std::uint64_t(1) << 63;
-        const std::uint64_t id = scene.lights[i].id;
+        const std::uint64_t id = i < scene.lights.size() ? scene.lights[i].id : kDomeLightId;
         ids.push_back(id != 0 ? id : kUnnamed + i);
         lights.cold[i].penumbraScale *= float(penumbraScale_);
         if (i < offsetsM.size()) lights.hot[i].positionWs += glm::vec3(offsetsM[i]);
@@ -249,6 +250,11 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
     lightCount_ = std::uint32_t(slots_.hot().size());
     freshSlots_ = slots_.fresh();
     uploadLightPictures(lights.tables);
+    uploadDome(lights.tables.dome);
+    showsDome_ = lights.tables.dome && scene.dome.visible;
+    features_[FEATURE_DOME] = lights.tables.dome != nullptr;
+    features_[FEATURE_BACKGROUND] = showsDome_;
+    features_[FEATURE_FILL] = fillNit(scene.dome) != glm::dvec3(0.0);
     if (!slots_.changed() && lightsHot_) return;
     decideLightFeatures();
     const std::vector<std::uint32_t> directional = slots_.directional();
@@ -299,6 +305,40 @@ void GpuScene::uploadLightPictures(const LightTables& tables) {
     };
     upload("iesProfiles", tables.profiles, lightPictures_.profiles, iesProfiles_);
     upload("functionImages", tables.functionImages, lightPictures_.functionImages, functionImages_);
+}
+
+void GpuScene::uploadDome(const std::shared_ptr<const DomeMaps>& dome) {
+    if (dome == lightPictures_.dome) return;
+    lightPictures_.dome = dome;
+    domeRadiances_ = gpu::Image();
+    domeIrradiances_ = gpu::Image();
+    domeDistribution_ = gpu::Buffer();
+    if (!dome) return;
+    domeRadiances_ = gpu::Image(device_, {.name = "domeRadiances",
+                                          .format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                          .width = std::uint32_t(dome->levels[0].width),
+                                          .height = std::uint32_t(dome->levels[0].height),
+                                          .mips = std::uint32_t(dome->levels.size()),
+                                          .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                          .cause = "lights"});
+    for (std::uint32_t level = 0; level < dome->levels.size(); ++level) {
+        std::vector<glm::uint64> texels;
+        for (const glm::vec3& texel : dome->levels[level].texels)
+            texels.push_back(glm::packHalf4x16(glm::vec4(texel, 1.0f)));
+        domeRadiances_.upload(std::as_bytes(std::span(texels)), level);
+    }
+    std::vector<glm::vec4> lux;
+    for (const glm::vec3& texel : dome->irradiance.texels)
+        lux.emplace_back(texel, 1.0f);
+    domeIrradiances_ = gpu::Image(device_, {.name = "domeIrradiances",
+                                            .format = VK_FORMAT_R32G32B32A32_SFLOAT,
+                                            .width = std::uint32_t(dome->irradiance.width),
+                                            .height = std::uint32_t(dome->irradiance.height),
+                                            .usage = VK_IMAGE_USAGE_SAMPLED_BIT,
+                                            .cause = "lights"});
+    domeIrradiances_.upload(std::as_bytes(std::span(lux)));
+    domeDistribution_ =
+        texelBuffer(device_, "domeDistribution", dome->distribution, VK_FORMAT_R32_SFLOAT, "lights");
 }
 
 void GpuScene::updateMovingInstances(const Scene& scene) {
@@ -421,6 +461,11 @@ gpu::Binding GpuScene::environmentBrdf() const {
     return {"ltcScales", ltcScales_, gpu::SamplerKind::LinearClamp};
 }
 
+gpu::Bindings GpuScene::backgroundBindings() const {
+    if (!domeRadiances_) return {};
+    return {{"domeRadiances", domeRadiances_, gpu::SamplerKind::LinearRepeat}};
+}
+
 gpu::Bindings GpuScene::lightBindings() const {
     gpu::Bindings bindings{{"lightsHotTexels", lightsHot_},
                            {"LightsCold", lightsCold_},
@@ -430,6 +475,11 @@ gpu::Bindings GpuScene::lightBindings() const {
     if (iesProfiles_) bindings.emplace_back("iesProfiles", iesProfiles_, gpu::SamplerKind::LinearClamp);
     if (functionImages_)
         bindings.emplace_back("functionImages", functionImages_, gpu::SamplerKind::LinearRepeat);
+    if (domeRadiances_) {
+        append(bindings, backgroundBindings());
+        bindings.emplace_back("domeIrradiances", domeIrradiances_, gpu::SamplerKind::LinearRepeat);
+        bindings.emplace_back("domeDistribution", domeDistribution_);
+    }
     if (features_.at(CHOICE_LIGHTS_IN_UNIFORM)) bindings.emplace_back("LightsHot", lightsHot_);
     return bindings;
 }

@@ -72,7 +72,11 @@ class GpuScene {
     // Made by prepareLightPowers(), for methods that draw lights by power.
     const gpu::Buffer& lightPowers() const { return lightPowers_; }
     void prepareLightPowers(double sceneExtentM);
-    std::uint32_t directionalCount() const { return directionalCount_; }
+    std::uint32_t directionalCount() const { return directionalCount_; } // the dome among them
+    // The dome's picture as shaders/passes/composite.comp shows it behind the scene.
+    bool showsDome() const { return showsDome_; }
+    gpu::Bindings backgroundBindings() const;
+    const DomeMaps* dome() const { return lightPictures_.dome.get(); }               // null without one
     const gpu::Buffer& previousInstances() const { return previousInstanceBuffer_; } // where some move
     const gpu::Buffer& indexBuffer() const { return indexBuffer_; }
 
@@ -85,6 +89,7 @@ class GpuScene {
     void decideFeatures(const Scene& scene);
     void decideLightFeatures();
     void uploadLightPictures(const LightTables& tables);
+    void uploadDome(const std::shared_ptr<const DomeMaps>& dome);
 
     gpu::Device& device_;
     glm::dvec3 anchor_;
@@ -107,8 +112,11 @@ class GpuScene {
     gpu::Buffer lightsHot_, lightsCold_, lightShapings_, directionalSlots_, previousInstanceBuffer_;
     gpu::Buffer lightPowers_; // empty: to be made anew
     std::uint32_t directionalCount_ = 0;
+    bool showsDome_ = false;
     gpu::Image ltcParameters_, ltcScales_, iesProfiles_, functionImages_;
-    LightTables lightPictures_; // what the two hold; without shapings
+    gpu::Image domeRadiances_, domeIrradiances_;
+    gpu::Buffer domeDistribution_;
+    LightTables lightPictures_; // what these hold; without shapings
 };
 
 } // namespace kilolux

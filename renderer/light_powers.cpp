@@ -43,7 +43,11 @@ std::vector<double> lightPowers(std::span<const LightHot> hot, std::span<const L
         const bool directional = (hot[i].typeFlags & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL;
         const double radiusM = 0.5 * sceneExtentM;
         const double lux = luminanceOf(glm::dvec3(hot[i].intensity));
-        const double lm = directional ? lux * glm::pi<double>() * radiusM * radiusM : double(cold[i].fluxLm);
+        double lm = directional ? lux * glm::pi<double>() * radiusM * radiusM : double(cold[i].fluxLm);
+        if ((hot[i].typeFlags & LIGHT_TYPE_MASK) == LIGHT_DOME) {
+            const double meanLux = lux * double(hot[i].sizeM.x) * glm::pi<double>();
+            lm = meanLux * 4.0 * glm::pi<double>() * radiusM * radiusM;
+        }
         powers.push_back(off ? 0.0 : lm);
     }
     return powers;

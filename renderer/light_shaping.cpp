@@ -3,11 +3,10 @@
 
 #include "renderer/document/ies_profile.h"
 #include "renderer/document/light_units.h"
+#include "renderer/made_once.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 #include <set>
 
 namespace kilolux {
@@ -18,28 +17,6 @@ namespace {
 constexpr int kProfileRows = 361, kProfileColumns = 145;
 constexpr double kLeastProfileCosine = 0.05;
 constexpr int kFunctionImagePx = 256;
-
-// Pictures by the document's object that they were made from, as long as that lives.
-template<typename Source, typename Made>
-class MadeOnce {
-  public:
-    template<typename Make>
-    std::shared_ptr<const Made> get(const std::shared_ptr<const Source>& source, const Make& make) {
-        const std::lock_guard lock(mutex_);
-        std::erase_if(made_, [](const auto& entry) { return entry.second.source.expired(); });
-        Entry& entry = made_[source.get()];
-        if (!entry.made) entry = {source, std::make_shared<const Made>(make(*source))};
-        return entry.made;
-    }
-
-  private:
-    struct Entry {
-        std::weak_ptr<const Source> source;
-        std::shared_ptr<const Made> made;
-    };
-    std::mutex mutex_;
-    std::map<const Source*, Entry> made_;
-};
 
 double verticalRad(int row) {
     return glm::pi<double>() * row / (kProfileRows - 1);

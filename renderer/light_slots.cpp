@@ -13,6 +13,11 @@ using namespace shared;
 
 namespace {
 
+bool isGlobal(std::uint32_t typeFlags) {
+    const std::uint32_t type = typeFlags & LIGHT_TYPE_MASK;
+    return type == LIGHT_DIRECTIONAL || type == LIGHT_DOME;
+}
+
 template<typename T>
 bool sameBytes(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
@@ -117,7 +122,7 @@ std::vector<std::uint32_t> LightSlots::fresh() const {
     std::vector<std::uint32_t> slots;
     for (std::uint32_t i = 0; i < slots_.size(); ++i) {
         const std::uint32_t flags = hot_[i].typeFlags;
-        const bool local = (flags & LIGHT_TYPE_MASK) != LIGHT_DIRECTIONAL;
+        const bool local = !isGlobal(flags);
         const bool on = (flags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) == 0u;
         if (local && on && (flags & LIGHT_FLAG_EDITED)) slots.push_back(i);
     }
@@ -133,7 +138,7 @@ std::vector<std::uint32_t> LightSlots::directional() const {
     std::vector<std::uint32_t> slots;
     for (std::uint32_t i = 0; i < slots_.size(); ++i) {
         const std::uint32_t flags = hot_[i].typeFlags;
-        if (!(flags & LIGHT_FLAG_DEAD) && (flags & LIGHT_TYPE_MASK) == LIGHT_DIRECTIONAL) slots.push_back(i);
+        if (!(flags & LIGHT_FLAG_DEAD) && isGlobal(flags)) slots.push_back(i);
     }
     return slots;
 }

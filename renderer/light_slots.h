@@ -17,9 +17,10 @@ class LightSlots {
     static constexpr std::uint64_t kRestFrames = 32;
 
     // Takes over the lights of a frame: `lights` are the records of Scene::lights in order, `ids` their
-    // LightNode::id, all different and none 0. The first call marks nothing as edited. A record that differs
-    // from the frame before raises its slot's epoch and is edited for LIGHT_EDITED_FRAMES frames; a range
-    // that was derived and still is may differ, as it follows the exposure. Frames count up.
+    // LightNode::id (kDomeLightId for the dome), all different and none 0. The first call marks nothing as
+    // edited. A record that differs from the frame before raises its slot's epoch and is edited for
+    // LIGHT_EDITED_FRAMES frames; a range that was derived and still is may differ, as it follows the
+    // exposure. Frames count up.
     void update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame);
 
     // Slot records as the device wants them; dead ones have LIGHT_FLAG_DEAD.
@@ -36,7 +37,7 @@ class LightSlots {
 
     // Slots of the local lights edited in the last frames, ascending: at most FRESH_LIGHTS, the strongest.
     std::vector<std::uint32_t> fresh() const;
-    std::vector<std::uint32_t> directional() const; // living ones, ascending
+    std::vector<std::uint32_t> directional() const; // living ones and the dome, ascending
     std::uint32_t slotOf(std::uint64_t id) const;   // of a living light; 0xffffffff for others
 
   private:

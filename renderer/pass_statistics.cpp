@@ -35,6 +35,9 @@ constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
     {shared::FEATURE_IES_PROFILES, "IesProfiles", "no light has one"},
     {shared::FEATURE_LIGHT_FUNCTIONS, "LightFunctions", "no light has one"},
     {shared::FEATURE_LIGHT_CHANNELS, "LightChannels", "every light reaches every mesh"},
+    {shared::FEATURE_DOME, "Dome", "no light from all around"},
+    {shared::FEATURE_BACKGROUND, "Background", "no dome is seen behind the scene"},
+    {shared::FEATURE_FILL, "Fill", "no plain ambient light"},
     {shared::FEATURE_CHANNEL_SHADOWS, "ChannelShadows", "every mesh casts every light's shadow"},
 }};
 

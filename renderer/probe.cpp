@@ -83,8 +83,10 @@ Json probeJson(const Probe& probe) {
                       {"visibleWeight", probe.visibleWeight},
                       {"hiddenWeight", probe.hiddenWeight},
                       {"directionalWeight", probe.directionalWeight},
+                      {"domeWeight", probe.domeWeight},
                       {"hiddenBudget", probe.hiddenBudget},
-                      {"directionalBudget", probe.directionalBudget}};
+                      {"directionalBudget", probe.directionalBudget},
+                      {"domeBudget", probe.domeBudget}};
     json["lightsInRange"] = probe.lightsInRange;
     json["lightsSeen"] = probe.lightsSeen;
     json["effectiveLights"] = probe.effectiveLights;

@@ -18,7 +18,7 @@ struct ProbeRay {
 };
 
 struct ProbedLight {
-    std::uint64_t id = 0; // LightNode::id
+    std::uint64_t id = 0; // LightNode::id; kDomeLightId (gpu_lights.h) of the dome
     std::uint32_t slot = 0;
     std::string name, type;
     bool reaches = false;       // on, and the pixel lies within its range, its cone and on its side
@@ -26,7 +26,7 @@ struct ProbedLight {
     bool listed = false;        // on the visible list that guided this pixel
     bool fresh = false;         // just edited
     bool candidate = false;     // weighed in this frame; only these can be chosen in it
-    std::string list;           // "visible", "hidden" or "directional", of a candidate
+    std::string list;           // "visible", "hidden", "directional" or "dome", of a candidate
     std::uint32_t areaMask = 0; // quarters of the light that were seen, 4 bits; of a listed one
     std::uint32_t unseenFrames = 0;
     double weight = 0.0;             // perceptual: log2(1 + exposed luminance), estimated without shadows
@@ -64,7 +64,9 @@ struct Probe {
     std::uint32_t candidates = 0, cellLights = 0, stride = 0, listLights = 0;
     glm::ivec2 listTile{0};
     double visibleWeight = 0.0, hiddenWeight = 0.0, directionalWeight = 0.0; // sums
-    double hiddenBudget = 0.0, directionalBudget = 0.0;                      // what the last two count for
+    double domeWeight = 0.0;
+    double hiddenBudget = 0.0, directionalBudget = 0.0,
+           domeBudget = 0.0; // what those but the first count for
     // Of all lights.
     std::uint32_t lightsInRange = 0, lightsSeen = 0;
     double lux = 0.0, nit = 0.0;     // with shadows, by the probe's own rays

@@ -1,6 +1,8 @@
 // The renderer's public face and its statistics; see renderer.h.
 #include "renderer/renderer.h"
 
+#include "renderer/document/light_units.h"
+#include "renderer/dome_maps.h"
 #include "renderer/readback.h"
 #include "renderer/renderer_impl.h"
 #include "renderer/views.h"
@@ -86,6 +88,7 @@ void Renderer::Impl::describe() {
     describeCounters();
     statistics.triangles = gpuScene->triangles();
     statistics.exposureEv100 = exposureEv100;
+    statistics.fillNit = luminanceOf(glm::dvec3(constants.fillNit));
     statistics.gridIndices = gridUse.indices;
     statistics.gridTests = gridUse.tests;
     statistics.gridCoarseCells = gridUse.coarseCells;
@@ -164,6 +167,10 @@ void Renderer::setLights(const Scene& edited) {
     impl_->scene.lightDefs = edited.lightDefs;
     impl_->scene.groups = edited.groups;
     impl_->scene.nodes = edited.nodes;
+    const Dome &was = impl_->scene.dome, &now = edited.dome;
+    // Neither is a light; what is, is compared as such.
+    if (was.visible != now.visible || fillNit(was) != fillNit(now)) impl_->meanReset = true;
+    impl_->scene.dome = edited.dome;
     impl_->lightsDirty = true;
 }
 

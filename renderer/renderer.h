@@ -101,8 +101,9 @@ class Renderer {
     std::vector<std::byte> displayPixels() const;
     enum class CameraChange { Move, Cut };
     void setCamera(const Camera& camera, CameraChange change);
-    // Takes over lights, their definitions and groups, and the nodes' transforms from an edited copy of the
-    // scene with the same nodes and meshes. Instances move only if an animation of the scene moves them.
+    // Takes over lights, their definitions and groups, dome and fill, and the nodes' transforms and lighting
+    // channels from an edited copy of the scene with the same nodes and meshes. Instances move only if an
+    // animation of the scene moves them.
     void setLights(const Scene& edited);
     void setExposureEv100(double ev100);
     void setRenderScale(double scale); // 0.1 to 1 of the picture's width and height

@@ -3,6 +3,7 @@
 #include "renderer/renderer_impl.h"
 
 #include "renderer/document/animation.h"
+#include "renderer/dome_maps.h"
 #include "renderer/gpu_lights.h"
 #include "renderer/readback.h"
 #include "shaders/shared/features.h"
@@ -104,6 +105,13 @@ void Renderer::Impl::describeFrame(std::uint32_t index, glm::ivec2 outputPx, con
     constants.seed = options.seed;
     constants.lightCount = gpuScene->lightCount();
     constants.exposure = float(exposureFromEv100(exposureEv100));
+    if (const DomeMaps* dome = gpuScene->dome()) {
+        constants.backgroundNit =
+            gpuScene->showsDome() ? glm::vec3(domeTexelNit(scene.dome, *dome)) : glm::vec3(0.0f);
+        constants.backgroundTurn = {float(std::cos(scene.dome.rotationRad)),
+                                    float(std::sin(scene.dome.rotationRad))};
+    }
+    constants.fillNit = settings.fill ? glm::vec3(fillNit(scene.dome)) : glm::vec3(0.0f);
     constants.rasterized = plan.producer == GBufferProducer::Raster;
     shared::SamplingConstants& sampling = constants.sampling;
     sampling.noiseFrame = noiseFrame;
@@ -179,6 +187,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
             used[feature] = 1;
         used[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
     }
+    if (!options.settings.fill) used[shared::FEATURE_FILL] = 0;
     used.insert(features.begin(), features.end());
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);

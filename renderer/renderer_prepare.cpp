@@ -3,6 +3,7 @@
 
 #include "renderer/document/animation.h"
 #include "renderer/document/task_watch.h"
+#include "renderer/dome_maps.h"
 #include "renderer/gpu_lights.h"
 #include "renderer/lights_cpp/ltc_table.h"
 #include "renderer/noise.h"
@@ -169,7 +170,7 @@ std::optional<Error> Renderer::Impl::prepareScene() {
             scene.cameras[i].name == camera.name)
             cameraIndex = int(i);
     }
-    if (scene.lights.empty()) {
+    if (scene.lights.empty() && !domeShines(scene.dome)) {
         addDefaultLight(scene, camera);
         statistics.notes.push_back(
             "the scene has no lights; a default directional light of 1000 lux stands in");

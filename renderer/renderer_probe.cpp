@@ -18,8 +18,8 @@ using namespace shared;
 
 std::string_view listName(const ProbeLight& light) {
     if (!(light.flags & PROBE_CANDIDATE)) return "";
-    constexpr std::string_view names[] = {"visible", "hidden", "directional"};
-    return names[std::min(light.list, 2u)];
+    constexpr std::string_view names[] = {"visible", "hidden", "directional", "dome"};
+    return names[std::min(light.list, 3u)];
 }
 
 ProbedLight describeLight(const ProbeLight& raw, const glm::vec4* rays, const glm::dvec3& anchor) {
@@ -95,6 +95,8 @@ void describeSurface(const ProbeSurface& s, const glm::dvec3& anchor, Probe& pro
     probe.directionalWeight = double(s.sums.z);
     probe.hiddenBudget = double(s.budgeted.x);
     probe.directionalBudget = double(s.budgeted.y);
+    probe.domeWeight = double(s.sums.w);
+    probe.domeBudget = double(s.budgeted.z);
 }
 
 } // namespace
@@ -155,18 +157,22 @@ Probe Renderer::Impl::readProbe(glm::ivec2 pixel, ProbeDepth depth) {
     if (depth == ProbeDepth::Surface) return probe;
     const auto lights = probeLights.downloadAs<ProbeLight>();
     const auto rays = probeRays.downloadAs<glm::vec4>();
-    for (const LightNode& node : scene.lights) {
-        const std::uint32_t slot = gpuScene->slots().slotOf(node.id);
-        if (slot >= constants.lightCount) continue;
+    const auto add = [&](std::uint64_t id, const std::string& name, std::string_view type) {
+        const std::uint32_t slot = gpuScene->slots().slotOf(id);
+        if (slot >= constants.lightCount) return;
         const ProbeLight& raw = lights[slot];
-        if (!(raw.flags & (PROBE_REACHES | PROBE_LISTED | PROBE_CANDIDATE))) continue;
+        if (!(raw.flags & (PROBE_REACHES | PROBE_LISTED | PROBE_CANDIDATE))) return;
         ProbedLight light = describeLight(raw, &rays[slot * PROBE_RAYS], gpuScene->anchor());
-        light.id = node.id;
+        light.id = id;
         light.slot = slot;
-        light.name = scene.nodes[std::size_t(node.node)].name;
-        light.type = wordOf(scene.lightDefs[std::size_t(node.def)].type);
+        light.name = name;
+        light.type = type;
         probe.lights.push_back(std::move(light));
-    }
+    };
+    for (const LightNode& node : scene.lights)
+        add(node.id, scene.nodes[std::size_t(node.node)].name,
+            wordOf(scene.lightDefs[std::size_t(node.def)].type));
+    add(kDomeLightId, "dome", "dome");
     sumUp(probe);
     return probe;
 }

@@ -45,6 +45,7 @@ struct Settings {
     bool jitter = true;
     PixelFilter pixelFilter = PixelFilter::BlackmanHarris;
     ToneMap toneMap = ToneMap::Neutral;
+    bool fill = true;
     TracerChoice tracer = TracerChoice::Auto;
     GBufferChoice gbuffer = GBufferChoice::Auto;
     Sampling sampling = Sampling::Full;
@@ -60,6 +61,7 @@ struct Settings {
     double hiddenRelaxedBelow = 0.02;
     double directionalShare = 0.5;
     double directionalFreeBelow = 0.002;
+    double domeBudget = 0.5;
     int cellCandidates = 12;
     int missCandidates = 32;
     DimLights dimLights = DimLights::Roulette;

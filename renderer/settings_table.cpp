@@ -116,6 +116,9 @@ constexpr std::array kRows = {
     SettingRow{.name = "toneMap",
                .member = choice<&Settings::toneMap>(kToneMapWords),
                .help = "from scene light to display"},
+    SettingRow{.name = "fill",
+               .member = &Settings::fill,
+               .help = "add the scene's plain ambient light, which is not direct light"},
     SettingRow{
         .name = "tracer", .member = choice<&Settings::tracer>(kTracerWords), .help = "who traces rays"},
     SettingRow{.name = "gbuffer",
@@ -184,6 +187,13 @@ constexpr std::array kRows = {
                .max = 10.0,
                .unit = "of display white",
                .help = "where local lights sum to less, directional ones are not limited"},
+    SettingRow{.name = "domeBudget",
+               .member = &Settings::domeBudget,
+               .min = 0.01,
+               .max = 0.95,
+               .unit = "of the samples",
+               .help =
+                   "at most so many go to the dome light, where local lights sum to directionalFreeBelow"},
     SettingRow{.name = "cellCandidates",
                .member = &Settings::cellCandidates,
                .min = 1,

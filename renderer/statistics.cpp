@@ -49,6 +49,7 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["firstDispatchMs"] = std::move(firstDispatch);
     json["startupMs"] = s.startupMs;
     json["exposureEv100"] = s.exposureEv100;
+    if (s.fillNit > 0.0) json["fill"] = {{"nit", s.fillNit}, {"note", "not direct light"}};
     json["rangesDerived"] = s.rangesDerived;
     json["bvh"] = {{"buildMs", s.bvhBuildMs}, {"bytesPerTriangle", s.bvhBytesPerTriangle}};
     json["lightGrid"] = {

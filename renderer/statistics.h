@@ -55,6 +55,7 @@ struct FrameStatistics {
         firstDispatchMs;    // pass and its first dispatch, compiler included
     double startupMs = 0.0; // process start to the first picture
     double exposureEv100 = 0.0;
+    double fillNit = 0.0;                 // plain ambient light in the picture, which is not direct light
     int rangesDerived = 0;                // lights without a range of their own
     std::uint32_t gridIndices = 0;        // light indices in the lists of the last frame's light grid
     std::uint32_t gridTests = 0;          // light-cell tests that made them

@@ -43,6 +43,7 @@ SamplingConstants samplingConstants(const Settings& s) {
     c.hiddenRelaxedBelow = weight(s.hiddenRelaxedBelow);
     c.directionalShare = float(s.directionalShare);
     c.directionalFreeBelow = weight(s.directionalFreeBelow);
+    c.domeShare = float(s.domeBudget);
     c.cellCandidates = std::uint32_t(s.cellCandidates);
     c.missCandidates = std::uint32_t(s.missCandidates);
     c.dimThreshold = weight(s.dimThreshold);

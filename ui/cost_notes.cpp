@@ -17,6 +17,7 @@ constexpr double kFewUsefulRays = 0.2;
 std::vector<CostNote> costNotes(const FrameStatistics& s) {
     std::vector<CostNote> notes;
     if (!s.viewProblem.empty()) notes.push_back({s.viewProblem, true});
+    if (s.fillNit > 0.0) notes.push_back({fmt::format("Fill of {:.3g} nit: not direct light", s.fillNit)});
     if (s.gridCoarseCells > 0)
         notes.push_back({fmt::format("The light grid lacks room in {} cells", s.gridCoarseCells), true});
     if (s.listOverflowMean > kOftenOverflowed)

@@ -2,6 +2,7 @@
 // them in the viewport. A row selects its light.
 #include "ui/probe_panel.h"
 
+#include "renderer/document/edit.h"
 #include "renderer/document/light_units.h"
 #include "ui/panels.h"
 #include "ui/theme.h"
@@ -105,6 +106,11 @@ std::string whyOf(const ProbedLight& light) {
     return text;
 }
 
+// The dome is no light of the list.
+bool canSelect(const Desk& desk, const ProbedLight& light) {
+    return findLight(desk.session->scene(), light.id) >= 0;
+}
+
 void drawLights(Desk& desk, const Probe& probe) {
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
@@ -124,7 +130,8 @@ void drawLights(Desk& desk, const Probe& probe) {
         const bool dim = light.nit <= 0.0;
         if (selected || dim) ImGui::PushStyleColor(ImGuiCol_Text, selected ? theme::kAccent : theme::kDim);
         const std::string name = light.name.empty() ? fmt::format("light {}", light.id) : light.name;
-        if (ImGui::Selectable(name.c_str(), selected, ImGuiSelectableFlags_SpanAllColumns))
+        if (ImGui::Selectable(name.c_str(), selected, ImGuiSelectableFlags_SpanAllColumns) &&
+            canSelect(desk, light))
             select(desk, {light.id}, ImGui::GetIO().KeyShift ? Selecting::Add : Selecting::Replace);
         mark(desk, fmt::format("probe.light.{}", light.id));
         tooltip(whyOf(light).c_str());
@@ -150,7 +157,7 @@ void drawProbePanel(Desk& desk) {
         panel.picking = !panel.picking;
     tooltip("Then click in the picture (P)");
     const std::optional<Probe>& found = panel.probe.answer();
-    if (found && !found->lights.empty()) {
+    if (found && !found->lights.empty() && canSelect(desk, found->lights.front())) {
         ImGui::SameLine();
         if (textButton(desk, "probe.strongest", "Select the strongest"))
             select(desk, {found->lights.front().id});

@@ -11,6 +11,7 @@ namespace kilolux::gpu {
 // --- Buffer ----------------------------------------------------------------------------------------------
 
 Buffer::Buffer(Device& device, BufferDesc desc) : device_(&device), desc_(std::move(desc)) {
+    const VkDeviceSize askedBytes = desc_.bytes;
     desc_.bytes = std::max<VkDeviceSize>(desc_.bytes, 16);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = desc_.bytes;
@@ -27,7 +28,8 @@ Buffer::Buffer(Device& device, BufferDesc desc) : device_(&device), desc_(std::m
         VkBufferViewCreateInfo view{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
         view.buffer = buffer_;
         view.format = desc_.texelFormat;
-        view.range = VK_WHOLE_SIZE;
+        // What pads a small buffer is none of its texels: shaders ask for their number.
+        view.range = askedBytes > 0 ? askedBytes : VK_WHOLE_SIZE;
         KX_VK(vkCreateBufferView(device.handle(), &view, nullptr, &texelView_));
     }
 }

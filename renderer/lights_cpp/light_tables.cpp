@@ -32,6 +32,29 @@ double LightPicture::repeated(const glm::dvec2& uv) const {
     });
 }
 
+glm::dvec3 DomeMaps::Picture::sample(const glm::dvec2& uv) const {
+    const glm::dvec2 at = glm::dvec2(uv.x * width, std::clamp(uv.y, 0.0, 1.0) * height) - 0.5;
+    const glm::dvec2 low = glm::floor(at), share = at - low;
+    const auto fetch = [&](int x, int y) {
+        const int column = ((x % width) + width) % width, row = std::clamp(y, 0, height - 1);
+        return glm::dvec3(texels[std::size_t(row) * std::size_t(width) + std::size_t(column)]);
+    };
+    const int x = int(low.x), y = int(low.y);
+    return glm::mix(glm::mix(fetch(x, y), fetch(x + 1, y), share.x),
+                    glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), share.x), share.y);
+}
+
+glm::dvec3 DomeMaps::radianceAt(const glm::dvec2& uv, double level) const {
+    const double clamped = std::clamp(level, 0.0, double(levels.size() - 1));
+    const std::size_t below = std::size_t(clamped), above = std::min(below + 1, levels.size() - 1);
+    return glm::mix(levels[below].sample(uv), levels[above].sample(uv), clamped - double(below));
+}
+
+glm::dvec3 DomeMaps::irradianceAt(const glm::dvec2& uv) const {
+    const glm::dvec2 size(irradiance.width, irradiance.height);
+    return irradiance.sample({uv.x + 0.5 / size.x, (uv.y * (size.y - 1.0) + 0.5) / size.y});
+}
+
 BindLightTables::BindLightTables(const LightTables& tables) : before_(bound) {
     bound = &tables;
 }

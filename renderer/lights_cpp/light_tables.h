@@ -22,10 +22,31 @@ struct LightPicture {
     double repeated(const glm::dvec2& uv) const;
 };
 
+// What a dome light looks up: pictures in latitude and longitude (shaders/math/panorama.glsl).
+struct DomeMaps {
+    struct Picture {
+        int width = 0, height = 0;
+        std::vector<glm::vec3> texels;
+        glm::dvec3 sample(const glm::dvec2& uv) const; // bilinear in double; repeats in u, clamped in v
+    };
+    std::vector<Picture> levels; // the picture, then blurred by as much as a texel is wide
+    Picture irradiance;          // nodes: the first and the last row are the poles
+    // Columns, rows, width of the picture, levels; the rows' cumulated shares of luminance, one more than
+    // there are; and for each row its cells'.
+    std::vector<float> distribution;
+    double texelScale = 1.0;    // times the document's texel
+    double meanLuminance = 0.0; // over the sphere
+    int number = 0;             // names it
+
+    glm::dvec3 radianceAt(const glm::dvec2& uv, double level) const; // between two levels
+    glm::dvec3 irradianceAt(const glm::dvec2& uv) const;             // uv of the direction
+};
+
 struct LightTables {
     std::vector<shared::LightShaping> shapings;
     std::vector<std::shared_ptr<const LightPicture>> profiles; // all of one size (lights/light_filter.glsl)
     std::vector<std::shared_ptr<const LightPicture>> functionImages; // all of one size
+    std::shared_ptr<const DomeMaps> dome;                            // null without one
 };
 
 // Binds the tables while it lives; the ones bound before return after it. `tables` must live as long.

@@ -30,6 +30,16 @@ static float functionImageLookup(uint layer, vec2 uv) {
     return float(boundLightTables().functionImages.at(layer)->repeated(dvec2(uv)));
 }
 
+static vec3 domeRadianceLookup(vec2 uv, float level) {
+    return vec3(boundLightTables().dome->radianceAt(dvec2(uv), double(level)));
+}
+static vec3 domeIrradianceLookup(vec2 uv) {
+    return vec3(boundLightTables().dome->irradianceAt(dvec2(uv)));
+}
+static float domeDistributionLookup(uint place) {
+    return float(boundLightTables().dome->distribution.at(place));
+}
+
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
 #define KILOLUX_MATH_SELECTION_TYPES_GLSL
 #include "shaders/lights/light.glsl"

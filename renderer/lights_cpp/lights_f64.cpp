@@ -58,6 +58,16 @@ static double functionImageLookup(uint layer, vec2 uv) {
     return (boundLightTables().functionImages.at(layer)->repeated(uv));
 }
 
+static vec3 domeRadianceLookup(vec2 uv, double level) {
+    return vec3(boundLightTables().dome->radianceAt(dvec2(uv), double(level)));
+}
+static vec3 domeIrradianceLookup(vec2 uv) {
+    return vec3(boundLightTables().dome->irradianceAt(dvec2(uv)));
+}
+static double domeDistributionLookup(uint place) {
+    return double(boundLightTables().dome->distribution.at(place));
+}
+
 #define KILOLUX_LIGHTS_LIGHT_TYPES_GLSL // declared by the header
 #define KILOLUX_MATH_SELECTION_TYPES_GLSL
 #define float double

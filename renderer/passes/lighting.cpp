@@ -48,6 +48,7 @@ CompositePass::CompositePass(gpu::PassResources& resources)
              {"rawDiffuse", Access::Read, gpu::Presence::Optional},
              {"rawSpecular", Access::Read, gpu::Presence::Optional},
              {"ltcScales"},
+             {"domeRadiances", Access::Read, gpu::Presence::Optional},
              {"sceneColorOut", Access::Write},
              {"rawColorOut", Access::Write, gpu::Presence::Optional}}) {}
 
@@ -62,6 +63,7 @@ void CompositePass::record(FrameContext& frame) {
     }
     pass_.record(frame.commands, frame.features,
                  joined({both,
+                         frame.scene.backgroundBindings(),
                          {{"Frame", frame.frameBuffer},
                           {"gSurface", targets.gSurface},
                           {"gMaterial", targets.gMaterial},

@@ -41,6 +41,9 @@ std::vector<PassUse> lightUses() {
             {"LightShapings", Access::Read, Presence::Optional}, // absent where no light has one
             {"iesProfiles", Access::Read, Presence::Optional},
             {"functionImages", Access::Read, Presence::Optional},
+            {"domeRadiances", Access::Read, Presence::Optional},
+            {"domeIrradiances", Access::Read, Presence::Optional},
+            {"domeDistribution", Access::Read, Presence::Optional},
             {"ltcParameters"},
             {"ltcScales"}};
 }

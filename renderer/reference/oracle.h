@@ -67,7 +67,7 @@ struct OracleOptions {
     bool shadows = true; // without: every light reaches every point above its horizon
 };
 
-// Means over a pixel's primary rays; rays that leave the scene count as black.
+// Means over a pixel's primary rays; rays that leave the scene see the background.
 struct OraclePixel {
     glm::dvec3 radianceNit{0.0}; // diffuse + specular + emission
     glm::dvec3 irradianceLux{0.0};
@@ -112,8 +112,9 @@ class Oracle {
     ~Oracle();
     Oracle(Oracle&&) noexcept;
 
-    std::size_t lightCount() const;
-    const OracleLight& light(std::size_t index) const;
+    std::size_t lightCount() const;                                // the dome, where it shines, is the last
+    const OracleLight& light(std::size_t index) const;             // not of the dome
+    glm::dvec3 backgroundNit(const glm::dvec3& directionWs) const; // what a ray that meets nothing sees
 
     // One light at one point. Muted lights give 0.
     OraclePointResult evaluatePoint(const OraclePoint& point, std::size_t lightIndex,

@@ -63,7 +63,7 @@ dvec3 addPoint(OraclePixel& pixel, const Oracle& oracle, const OraclePoint& poin
 dvec3 addRay(OraclePixel& pixel, const Oracle& oracle, const CameraRay& ray, const OracleOptions& options,
              double weight, dvec3& variance) {
     const std::optional<OracleHit> hit = oracle.tracePrimary(ray.originWs, ray.directionWs, ray.minDistanceM);
-    if (!hit) return dvec3(0.0);
+    if (!hit) return oracle.backgroundNit(ray.directionWs);
     pixel.emissionNit += weight * hit->emissionNit;
     pixel.hitDistanceM = hit->distanceM;
     pixel.node = hit->node;

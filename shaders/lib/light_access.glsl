@@ -12,6 +12,7 @@ layout(constant_id = FEATURE_SPOT_LIGHTS) const bool kSpotLights = true;
 layout(constant_id = FEATURE_TUBE_LIGHTS) const bool kTubeLights = true;
 layout(constant_id = FEATURE_RECT_LIGHTS) const bool kRectLights = true;
 layout(constant_id = FEATURE_DISK_LIGHTS) const bool kDiskLights = true;
+layout(constant_id = FEATURE_DOME) const bool kDome = true;
 layout(constant_id = FEATURE_BARN_DOORS) const bool kBarnDoors = true;
 layout(constant_id = FEATURE_IES_PROFILES) const bool kIesProfiles = true;
 layout(constant_id = FEATURE_LIGHT_FUNCTIONS) const bool kLightFunctions = true;
@@ -23,6 +24,7 @@ layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = fal
 #define KX_HAS_TUBE kTubeLights
 #define KX_HAS_RECT kRectLights
 #define KX_HAS_DISK kDiskLights
+#define KX_HAS_DOME kDome
 #define KX_HAS_BARN_DOORS kBarnDoors
 #define KX_HAS_IES kIesProfiles
 #define KX_HAS_LIGHT_FUNCTIONS kLightFunctions
@@ -49,6 +51,20 @@ float profileLookup(uint layer, vec2 uv) {
 uniform sampler2DArray functionImages;
 float functionImageLookup(uint layer, vec2 uv) {
     return textureLod(functionImages, vec3(uv, float(layer)), 0.0).x;
+}
+uniform sampler2D domeRadiances;
+uniform sampler2D domeIrradiances;
+uniform samplerBuffer domeDistribution;
+vec3 domeRadianceLookup(vec2 uv, float level) {
+    return textureLod(domeRadiances, uv, level).rgb;
+}
+vec3 domeIrradianceLookup(vec2 uv) {
+    // Nodes: the first and the last row are the poles.
+    vec2 size = vec2(textureSize(domeIrradiances, 0));
+    return textureLod(domeIrradiances, vec2(uv.x + 0.5 / size.x, (uv.y * (size.y - 1.0) + 0.5) / size.y), 0.0).rgb;
+}
+float domeDistributionLookup(uint place) {
+    return texelFetch(domeDistribution, int(place)).x;
 }
 #include "../lights/light.glsl"
 
@@ -85,7 +101,7 @@ bool lightReaches(LightHot light, vec3 positionWs) {
     LightBounds bounds = lightBounds(light);
     vec3 to = positionWs - bounds.centerWs;
     float distance2 = dot(to, to);
-    if (lightType(light) == LIGHT_DIRECTIONAL) return lightIsOn(light);
+    if (lightIsGlobal(light)) return lightIsOn(light);
     bool within = distance2 * light.invRange * light.invRange < 1.0;
     bool inCone = dot(to, bounds.axisWs) >= (bounds.cosHalfAngle - 1.0e-6) * sqrt(distance2);
     return lightIsOn(light) && within && inCone;

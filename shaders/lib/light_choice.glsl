@@ -94,7 +94,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     vec2 listed = vec2(0.0), likely = vec2(0.0);
     state.candidates = 0u;
     for (uint sun = 0u;; ++sun) {
-        bool directional = kDirectionalLights && sun < how.directionalCount;
+        bool directional = (kDirectionalLights || kDome) && sun < how.directionalCount; // or the dome
         if (!directional && !nextLight(walk)) break;
         uint slot = directional ? directionalSlots[sun] : walk.slot;
         if (slot >= frame.lightCount) continue; // a foreign list
@@ -109,13 +109,14 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
             listed += vec2(energy, energy * edited);
             mask = maskOfEntry(unpackEntry(entry.x), light);
         }
-        if (kDirectionalLights && !directional && lightType(light) == LIGHT_DIRECTIONAL) continue;
+        if ((kDirectionalLights || kDome) && !directional && lightIsGlobal(light)) continue;
         float unshadowed = lightWeight(light, receiver.point, albedo, f0);
         float weight = perceptualWeight(unshadowed, frame.exposure);
         // What is nothing here may be something at a neighbour that takes this pixel's choice.
         if (atHalf && lightReaches(light, receiver.point.positionWs))
             weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));
         uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
+        if (kDome && lightType(light) == LIGHT_DOME) list = LIST_DOME;
         if (list != LIST_HIDDEN) likely += vec2(weight, weight * edited);
         float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
         Candidate candidate = makeCandidate(slot | mask << ITEM_MASK_SHIFT, list, weight, state.stride, how.dimThreshold,
@@ -126,7 +127,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     }
 
     state.budget = SelectionBudget(missed ? how.missHiddenShare : how.hiddenShare, how.hiddenRelaxedBelow,
-                                   how.directionalShare, how.directionalFreeBelow);
+                                   how.directionalShare, how.directionalFreeBelow, how.domeShare);
     float editedShare = max(listed.y / max(listed.x, 1.0e-20), likely.y / max(likely.x, 1.0e-20));
     state.flags = missed ? SAMPLE_MISSED : 0u;
     if (editedShare > 0.0)

@@ -87,7 +87,7 @@ LightReach lightReach(LightHot light) {
 
 bool mayReach(LightReach light, CellBounds cell) {
     if (light.radius2M2 <= 0.0) return false;
-    if (light.type == LIGHT_DIRECTIONAL) return true;
+    if (light.type == LIGHT_DIRECTIONAL || light.type == LIGHT_DOME) return true;
     vec3 toCell = cell.centerWs - light.centerWs;
     vec3 p = abs(vec3(dot(toCell, cell.right), dot(toCell, cell.down), dot(toCell, cell.forward)));
     vec3 outside = max(p - cell.halfM, vec3(0.0));

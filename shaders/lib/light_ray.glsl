@@ -13,7 +13,8 @@ bool usablePoint(Receiver receiver, LightHot light, vec2 uv, uint seed, out Ligh
     if (!lightIncludes(light, receiver.point.channels)) return false;
     LightExtent extent = lightExtent(light, receiver.point.positionWs);
     float highest = dot(receiver.point.normalWs, extent.toCenter) + extentAlong(extent, receiver.point.normalWs);
-    int draws = highest > 0.0 ? kMaxDraws : 0;
+    bool above = highest > 0.0 || (kDome && lightType(light) == LIGHT_DOME);
+    int draws = above ? mostDraws(light) : 0;
     for (int draw = 0; draw < draws; ++draw) {
         s = lightSample(light, receiver.point.positionWs, uv);
         if (s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0) return true;

@@ -47,6 +47,7 @@ PointLight pointLight(Receiver receiver, uint slot, vec2 uv) {
     if (luminance(lit.emission) <= 0.0 || !lightIncludes(light, receiver.point.channels)) return lit;
     lit.point = lightSample(light, receiver.point.positionWs, uv);
     if (!lit.point.valid || dot(receiver.point.normalWs, lit.point.dirWs) <= 0.0) return lit;
+    lit.emission *= lightTint(light, lit.point);
     lit.terms = termsAtPoint(receiver, lit.point);
     vec3 reflectance = diffuseAlbedo(receiver.surface) * lit.terms.x + specularF0(receiver.surface) * lit.terms.y +
                        vec3(lit.terms.z);

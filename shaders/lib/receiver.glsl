@@ -39,6 +39,11 @@ Receiver loadReceiver(uvec2 pixel) {
 // Tries to find a point above the receiver's horizon. Those that never do count as hidden, which loses 0.9^64 =
 // 0.1 % of a light of which a tenth is above; 8 tries lost 43 % of it, and 0.4 % of one that is half above.
 const int kMaxDraws = 64;
+const int kMaxDomeDraws = 256; // whose light may come nearly all from a sun below the horizon
+
+int mostDraws(LightHot light) {
+    return kDome && lightType(light) == LIGHT_DOME ? kMaxDomeDraws : kMaxDraws;
+}
 
 // The ray from a receiver to a sampled point of a light, for which occluded() is asked; tMaxM <= 0 where nothing
 // can be between.

@@ -197,6 +197,7 @@ KX_INLINE LightIrradiance smallIrradiance(EmitterOutline outline, ShadingPoint p
     float specular = solidAngle * lobe.x;
     LightIrradiance result;
     result.emission = emission;
+    result.specularEmission = emission;
     result.diffuse = solidAngle * cut.y;
     result.specular = vec2(specular * (1.0 - lobe.y), specular * lobe.y);
     return result;
@@ -235,6 +236,7 @@ KX_INLINE LightIrradiance outlineIrradiance(EmitterOutline outline, ShadingPoint
     OutlineIntegral sum = integrateOutline(outline, point, lobe);
     LightIrradiance result;
     result.emission = emission;
+    result.specularEmission = emission;
     result.diffuse = max(dot(sum.diffuse, point.normalWs), 0.0) * outline.correction;
     // A light that covers the whole lobe gives the lobe's integral.
     float ofLobe = saturate(sum.covered * lobe.amplitude / max(lobe.albedo.x + lobe.albedo.y, 1.0e-6));

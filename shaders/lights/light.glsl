@@ -1,6 +1,7 @@
 // One set of functions for every light type; each evaluation has a single call site, the type only chooses
 // what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place),
-// profileLookup and functionImageLookup (light_filter.glsl), and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK, KX_HAS_BARN_DOORS,
+// profileLookup and functionImageLookup (light_filter.glsl), what dome.glsl names, and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK, KX_HAS_DOME,
+// KX_HAS_BARN_DOORS,
 // KX_HAS_IES, KX_HAS_LIGHT_FUNCTIONS and KX_HAS_LIGHT_CHANNELS
 // as constant expressions that are false where the scene has no such light.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
@@ -20,6 +21,7 @@
 #endif
 #include "directional.glsl"
 #include "disk.glsl"
+#include "dome.glsl"
 #include "irradiance.glsl"
 #include "light_filter.glsl"
 #include "rect.glsl"
@@ -46,6 +48,9 @@
 #ifndef KX_HAS_DISK
 #define KX_HAS_DISK true
 #endif
+#ifndef KX_HAS_DOME
+#define KX_HAS_DOME true
+#endif
 #include "weight.glsl"
 
 // Whether the light has no extent: only lightSample can meet it.
@@ -69,6 +74,8 @@ KX_INLINE LightBounds lightBounds(LightHot light) {
         bounds = diskBounds(light);
     else if (KX_HAS_TUBE && type == LIGHT_TUBE)
         bounds = tubeBounds(light);
+    else if (KX_HAS_DOME && type == LIGHT_DOME)
+        bounds = domeBounds(light);
     bounds = profileBounds(light, bounds);
     bounds.radiusM = lightIsOn(light) ? bounds.radiusM : 0.0;
     return bounds;
@@ -92,7 +99,15 @@ KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
         emission = diskEvaluate(light, receiverWs);
     else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
         emission = directionalEvaluate(light, receiverWs);
+    else if (KX_HAS_DOME && type == LIGHT_DOME)
+        emission = light.intensity;
     return emission * lightFilter(light, receiverWs);
+}
+
+// What a point of the light multiplies lightEvaluate() with: 1 but for lights that are not the same all over.
+KX_INLINE vec3 lightTint(LightHot light, LightSample s) {
+    if (KX_HAS_DOME && lightType(light) == LIGHT_DOME) return domeTexel(domeLocal(light, s.dirWs), 0.0);
+    return vec3(1.0);
 }
 
 // The silhouette from a receiver; `alpha` of its surface decides how finely it is drawn.
@@ -113,10 +128,12 @@ KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, Lt
     if (luminance(emission) <= 0.0 || !lightIncludes(light, point.channels)) {
         LightIrradiance none;
         none.emission = vec3(0.0);
+        none.specularEmission = vec3(0.0);
         none.diffuse = 0.0;
         none.specular = vec2(0.0);
         return none;
     }
+    if (KX_HAS_DOME && lightType(light) == LIGHT_DOME) return domeIrradiance(light, point, lobe);
     return outlineIrradiance(lightOutline(light, point.positionWs, point.alpha), point, lobe, emission);
 }
 
@@ -137,6 +154,8 @@ KX_INLINE LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv) {
         s = diskSample(light, receiverWs, uv);
     else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
         s = directionalSample(light, receiverWs, uv);
+    else if (KX_HAS_DOME && type == LIGHT_DOME)
+        s = domeSample(light, receiverWs, uv);
     return s;
 }
 
@@ -156,11 +175,13 @@ KX_INLINE LightHit lightIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
         hit = diskIntersect(light, originWs, dirWs);
     else if (KX_HAS_DIRECTIONAL && type == LIGHT_DIRECTIONAL)
         hit = directionalIntersect(light, originWs, dirWs);
+    else if (KX_HAS_DOME && type == LIGHT_DOME)
+        hit = domeIntersect(light, originWs, dirWs);
     return hit;
 }
 
 // Emitted lumens without range window, barn doors and light function, luminance-weighted, muted or not. 0 for
-// directional lights.
+// directional lights and the dome.
 KX_INLINE float lightFlux(LightHot light) {
     uint type = lightType(light);
     if (KX_HAS_IES && lightHasShaping(light) && lightShaping(light).profile != 0u)

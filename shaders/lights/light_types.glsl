@@ -60,7 +60,8 @@ struct LightHit {
 struct LightIrradiance {
     vec3 emission; // lightEvaluate(): nit, cd for points, lux for a delta direction
     float diffuse; // times emission: irradiance in lux
-    vec2 specular; // times emission: radiance towards the viewer = F0 * x + F90 * y
+    vec3 specularEmission; // emission, but for lights that are not the same all over: what the lobe sees of it
+    vec2 specular; // times specularEmission: radiance towards the viewer = F0 * x + F90 * y
 };
 
 // A light's silhouette from a receiver: one or two elliptic arcs whose vertices form a convex polygon,

@@ -24,6 +24,11 @@ KX_INLINE uint lightType(LightHot light) {
     return light.typeFlags & LIGHT_TYPE_MASK;
 }
 
+// Without a place: it reaches everything.
+KX_INLINE bool lightIsGlobal(LightHot light) {
+    return lightType(light) == LIGHT_DIRECTIONAL || lightType(light) == LIGHT_DOME;
+}
+
 KX_INLINE bool lightHasShaping(LightHot light) {
     return light.typeFlags >> LIGHT_SHAPING_SHIFT != 0u;
 }

@@ -156,6 +156,8 @@ KX_INLINE LightView lightView(LightExtent e) {
 // of baseColor * (1 - metallic), `f0` that of F0. Directions are only met in products with the normal, the view
 // and the light's long axis, so that the lobe needs no vectors.
 KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlbedo, float f0) {
+    if (KX_HAS_DOME && lightType(light) == LIGHT_DOME)
+        return lightIsOn(light) ? domeWeight(light, point, diffuseAlbedo, f0) : 0.0;
     float intensity = luminance(light.intensity);
     LightExtent e = lightExtent(light, point.positionWs);
     // Limits are a little wide, and what is left of them above 0, so that rounding loses no light.

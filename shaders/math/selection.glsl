@@ -9,6 +9,11 @@
 // What a reservoir's winner is called while the reservoirs themselves are drawn from.
 const uint KX_WINNER_HIDDEN = 0xfffffffeu;
 const uint KX_WINNER_DIRECTIONAL = 0xfffffffdu;
+const uint KX_WINNER_DOME = 0xfffffffcu;
+
+#ifndef KX_HAS_DOME
+#define KX_HAS_DOME true
+#endif
 
 const float KX_LEAST_SHARE = 0.0009765625;  // of the samples: a budget of 0 would make the mean wrong
 const float KX_LEAST_PROBABILITY = 1.0e-30; // below, 1 / probability could be infinite
@@ -77,6 +82,9 @@ KX_INLINE LightSelection beginSelection(vec3 numbers, uint sampleCount) {
     s.visibleSum = 0.0;
     s.hiddenSum = 0.0;
     s.directionalSum = 0.0;
+    s.domeSum = 0.0;
+    s.domeFactor = 1.0;
+    s.domeItem = KX_NO_ITEM;
     s.sampleCount = min(sampleCount, uint(KX_MAX_SAMPLES));
     for (uint i = 0u; i < s.sampleCount; ++i) {
         s.visible[i] = emptyReservoir(ditheredNumber(numbers.x, i, s.sampleCount));
@@ -88,6 +96,12 @@ KX_INLINE LightSelection beginSelection(vec3 numbers, uint sampleCount) {
 
 KX_INLINE void selectionAdd(INOUT(LightSelection) s, Candidate c) {
     if (!(c.weight >= KX_LEAST_WEIGHT)) return;
+    if (KX_HAS_DOME && c.list == LIST_DOME) {
+        s.domeSum = c.weight;
+        s.domeFactor = c.factor;
+        s.domeItem = c.item;
+        return;
+    }
     bool hidden = c.list == LIST_HIDDEN;
     bool directional = c.list == LIST_DIRECTIONAL;
     float sumBefore = directional ? s.directionalSum : (hidden ? s.hiddenSum : s.visibleSum);
@@ -132,30 +146,40 @@ KX_INLINE vec2 budgetedSums(float visibleSum, float hiddenSum, float directional
     return vec2(hidden, directional);
 }
 
+// What the dome counts for beside the others as they are merged. Local lights hold it down, directional ones do not.
+KX_INLINE float budgetedDome(float domeSum, float localSum, float directionalSum, SelectionBudget budget) {
+    if (!(localSum > 0.0) || localSum < budget.directionalFreeBelow) return domeSum;
+    return cappedSum(domeSum, localSum + directionalSum, budget.domeShare);
+}
+
 // The probability that selectionSample() takes a candidate of this list and weight (its stride contained). `sums` are
-// those of the selection: visible, hidden, directional.
-KX_INLINE float candidateProbability(vec3 sums, SelectionBudget budget, uint list, float weight) {
+// those of the selection: visible, hidden, directional, dome.
+KX_INLINE float candidateProbability(vec4 sums, SelectionBudget budget, uint list, float weight) {
     if (!(weight >= KX_LEAST_WEIGHT)) return 0.0;
     vec2 given = budgetedSums(sums.x, sums.y, sums.z, budget);
-    float total = max(sums.x + given.x + given.y, KX_LEAST_WEIGHT);
+    float dome = KX_HAS_DOME ? budgetedDome(sums.w, sums.x + given.x, given.y, budget) : 0.0;
+    float total = max(sums.x + given.x + given.y + dome, KX_LEAST_WEIGHT);
+    if (list == LIST_DOME) return dome / total;
     if (list == LIST_HIDDEN) return given.x / total * (weight / sums.y);
     if (list == LIST_DIRECTIONAL) return given.y / total * (weight / sums.z);
     return weight / total;
 }
 
 // The index-th sample of the pixel, once all candidates have been added. The hidden and the directional
-// winner are offered to the visible reservoir as one item each, with what is left of the visible list's
+// winner and the dome are offered to the visible reservoir as one item each, with what is left of the visible list's
 // number, which so decides alone wherever that list is all there is.
 KX_INLINE LightChoice selectionSample(LightSelection s, SelectionBudget budget, uint index) {
     vec2 sums = budgetedSums(s.visibleSum, s.hiddenSum, s.directionalSum, budget);
     Reservoir winner = s.visible[index];
     reservoirAdd(winner, s.visibleSum, KX_WINNER_HIDDEN, sums.x, 1.0);
     reservoirAdd(winner, s.visibleSum + sums.x, KX_WINNER_DIRECTIONAL, sums.y, 1.0);
+    float dome = KX_HAS_DOME ? budgetedDome(s.domeSum, s.visibleSum + sums.x, sums.y, budget) : 0.0;
+    if (KX_HAS_DOME) reservoirAdd(winner, s.visibleSum + sums.x + sums.y, KX_WINNER_DOME, dome, 1.0);
     LightChoice choice;
     choice.item = winner.item;
     choice.list = LIST_VISIBLE;
     choice.number = winner.number;
-    choice.probability = winner.weight / max(s.visibleSum + sums.x + sums.y, KX_LEAST_WEIGHT);
+    choice.probability = winner.weight / max(s.visibleSum + sums.x + sums.y + dome, KX_LEAST_WEIGHT);
     choice.weight = winner.weight;
     float factor = winner.factor;
     if (winner.item == KX_WINNER_HIDDEN) {
@@ -170,6 +194,11 @@ KX_INLINE LightChoice selectionSample(LightSelection s, SelectionBudget budget, 
         choice.probability *= s.directional[index].weight / s.directionalSum;
         factor = s.directional[index].factor;
         choice.weight = s.directional[index].weight;
+    } else if (KX_HAS_DOME && winner.item == KX_WINNER_DOME) {
+        choice.item = s.domeItem;
+        choice.list = LIST_DOME;
+        factor = s.domeFactor;
+        choice.weight = s.domeSum;
     }
     choice.contribution = choice.probability > KX_LEAST_PROBABILITY ? factor / choice.probability : 0.0;
     return choice;

@@ -14,6 +14,7 @@ const uint KX_NO_ITEM = 0xffffffffu;
 const uint LIST_VISIBLE = 0u;     // on the visible list, or fresh
 const uint LIST_HIDDEN = 1u;      // from the grid cell only
 const uint LIST_DIRECTIONAL = 2u; // any directional light, whatever list it is on
+const uint LIST_DOME = 3u;        // the dome, of which there is at most one
 
 // What happens to weights under the threshold.
 const uint DIM_ROULETTE = 0u; // unbiased
@@ -44,6 +45,7 @@ struct SelectionBudget {
     float hiddenRelaxedBelow;   // sum of visible weights; below it the share rises, to 1 at 0
     float directionalShare;     // of all samples, [0, 1]: 0.5
     float directionalFreeBelow; // sum of local weights, as merged; below it there is no cap
+    float domeShare; // of all samples, [0, 1]: 0.5, with the same freedom
 };
 
 // The state of a pixel while it walks its candidates. Make it with beginSelection.
@@ -51,6 +53,9 @@ struct LightSelection {
     float visibleSum;
     float hiddenSum;
     float directionalSum;
+    float domeSum; // the only candidate of its list
+    float domeFactor;
+    uint domeItem;
     uint sampleCount; // at most KX_MAX_SAMPLES
     Reservoir visible[KX_MAX_SAMPLES];
     Reservoir hidden[KX_MAX_SAMPLES];

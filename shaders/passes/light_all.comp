@@ -58,13 +58,13 @@ void main() {
                 if (luminance(unshadowed.emission) <= 0.0) continue;
             }
             float sumVisible = 0.0;
-            vec3 sumDiffuseSpecular = vec3(0.0); // true: diffuse, specular for F0, for F90
+            vec3 sumDiffuse = vec3(0.0), sumSpecular = vec3(0.0); // true: of emission
             for (uint ray = 0u; ray < raysPerLight; ++ray) {
                 uint sampleSeed = hashCombine(seed, slot * 16u + ray);
                 LightSample s;
                 bool usable = false;
                 // Split wants points above the horizon only; true draws once, a zero is part of its mean.
-                int draws = kEstimator == ESTIMATOR_SPLIT ? kMaxDraws : 1;
+                int draws = kEstimator == ESTIMATOR_SPLIT ? mostDraws(light) : 1;
                 for (int draw = 0; draw < draws && !usable; ++draw) {
                     s = lightSample(light, positionWs, whiteNoise2(sampleSeed, uint(draw)));
                     usable = s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0;
@@ -74,14 +74,20 @@ void main() {
                 float visible = tracePoint(receiver, slot, s, traced) == RAY_VISIBLE ? 1.0 : 0.0;
                 rays += traced ? 1u : 0u;
                 sumVisible += visible;
-                if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) sumDiffuseSpecular += termsAtPoint(receiver, s);
+                if (kEstimator == ESTIMATOR_TRUE && visible > 0.0) {
+                    vec3 terms = termsAtPoint(receiver, s), emission = unshadowed.emission * lightTint(light, s);
+                    sumDiffuse += emission * terms.x;
+                    sumSpecular += emission * (f0 * terms.y + vec3(terms.z));
+                }
             }
-            vec3 terms = kEstimator == ESTIMATOR_SPLIT
-                             ? sumVisible * vec3(unshadowed.diffuse * KX_INV_PI, unshadowed.specular)
-                             : sumDiffuseSpecular;
-            vec3 emission = unshadowed.emission * (frame.exposure / float(raysPerLight));
-            diffuse += emission * terms.x;
-            specular += emission * (f0 * terms.y + vec3(terms.z));
+            if (kEstimator == ESTIMATOR_SPLIT) {
+                sumDiffuse = unshadowed.emission * (sumVisible * unshadowed.diffuse * KX_INV_PI);
+                sumSpecular = unshadowed.specularEmission * sumVisible *
+                              (f0 * unshadowed.specular.x + vec3(unshadowed.specular.y));
+            }
+            float exposed = frame.exposure / float(raysPerLight);
+            diffuse += sumDiffuse * exposed;
+            specular += sumSpecular * exposed;
             shining += sumVisible > 0.0 ? 1u : 0u;
         }
         atomicAdd(counters[COUNTER_RAYS], rays);

@@ -28,7 +28,7 @@ layout(scalar) writeonly buffer ProbeRays {
     vec4 rayEnds[]; // PROBE_RAYS a slot: point on the light, RAY_*
 };
 
-shared vec3 sums;
+shared vec4 sums;
 shared SelectionBudget budget;
 
 void seeCandidate(Candidate c, float weight) {
@@ -71,15 +71,15 @@ void probeSurface(Receiver receiver, uvec2 pixel) {
     surfaceOut.listLights = 0u;
     surfaceOut.listTile = uvec2(0u);
     surfaceOut.missed = 0u;
-    surfaceOut.sums = vec3(0.0);
-    surfaceOut.budgeted = vec2(0.0);
+    surfaceOut.sums = vec4(0.0);
+    surfaceOut.budgeted = vec3(0.0);
 }
 
 // What sample_lights knew of this pixel.
 void probeChoice(Receiver receiver, uvec2 pixel, uvec2 stored) {
     LightSelection selection;
     ChoiceState state = considerLights(receiver, pixel, stored, selection);
-    sums = vec3(selection.visibleSum, selection.hiddenSum, selection.directionalSum);
+    sums = vec4(selection.visibleSum, selection.hiddenSum, selection.directionalSum, selection.domeSum);
     budget = state.budget;
     surfaceOut.candidates = state.candidates;
     surfaceOut.cellLights = cellCount;
@@ -89,7 +89,8 @@ void probeChoice(Receiver receiver, uvec2 pixel, uvec2 stored) {
     surfaceOut.listTile = uvec2(tile % frame.previousTiles.x, tile / frame.previousTiles.x);
     surfaceOut.missed = state.flags & SAMPLE_MISSED;
     surfaceOut.sums = sums;
-    surfaceOut.budgeted = budgetedSums(sums.x, sums.y, sums.z, budget);
+    vec2 budgeted = budgetedSums(sums.x, sums.y, sums.z, budget);
+    surfaceOut.budgeted = vec3(budgeted, budgetedDome(sums.w, sums.x + budgeted.x, budgeted.y, budget));
     for (uint i = 0u; i < visibleCount; ++i) {
         uint word = texelFetch(visibleLists, int(visibleAt + i)).x;
         uint slot = word & ENTRY_SLOT_MASK;
@@ -125,8 +126,8 @@ void probeLight(Receiver receiver, uint slot, LtcLobe lobe) {
         found.weight = perceptualWeight(lightWeight(light, receiver.point, albedo, luminance(f0)), frame.exposure);
     LightIrradiance lit = lightIrradiance(light, receiver.point, lobe);
     found.irradianceLux = lit.emission * lit.diffuse;
-    found.reflectedNit = lit.emission * (diffuseAlbedo(receiver.surface) * (lit.diffuse * KX_INV_PI) +
-                                         f0 * lit.specular.x + vec3(lit.specular.y));
+    found.reflectedNit = lit.emission * diffuseAlbedo(receiver.surface) * (lit.diffuse * KX_INV_PI) +
+                         lit.specularEmission * (f0 * lit.specular.x + vec3(lit.specular.y));
     uint seed = hashCombine(pixelSeed(request.renderedPx, 0u, 0u), slot);
     for (uint i = 0u; i < PROBE_RAYS; ++i) {
         LightSample s;
@@ -153,7 +154,7 @@ void main() {
     if (!receiver.exists || request.lights == 0u) return; // the same for all lanes
     for (uint slot = lane; slot < frame.lightCount; slot += PROBE_LANES)
         lights[slot] = ProbeLight(0u, LIST_HIDDEN, 0u, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, vec3(0.0), vec3(0.0));
-    if (lane == 0u) sums = vec3(0.0);
+    if (lane == 0u) sums = vec4(0.0);
     memoryBarrierBuffer();
     barrier();
     if (lane == 0u && request.stochastic != 0u)

@@ -4,6 +4,7 @@
 #include "lib/dispatch.glsl"
 #include "lib/surface.glsl"
 
+layout(constant_id = FEATURE_BACKGROUND) const bool kBackground = true;
 layout(constant_id = FEATURE_MOVING_INSTANCES) const bool kMovingInstances = true;
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -37,6 +38,14 @@ vec3 motionOf(uint instanceId, vec3 positionWs, vec3 positionLs) {
 
 const float kHalfMax = 65504.0;
 
+// The same of what lies behind the scene: endlessly far away.
+vec3 motionOfBackground(vec3 dir) {
+    vec4 now = frame.steadyClipFromWorld * vec4(dir, 0.0), before = frame.previousClipFromWorld * vec4(dir, 0.0);
+    if (now.w <= 0.0) return vec3(0.0); // orthographic: one direction everywhere
+    if (before.w <= 0.0) return vec3(4.0, 4.0, kHalfMax);
+    return vec3(clamp(0.5 * (before.xy / before.w - now.xy / now.w), -4.0, 4.0), kHalfMax);
+}
+
 void main() {
     uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
@@ -56,6 +65,7 @@ void main() {
         moved = motionOf(seen.x, hit.positionWs, hit.positionLs);
         emissive = min(hit.emissiveNit * frame.exposure, vec3(kHalfMax));
     }
+    if (kBackground && seen.x == 0xffffffffu) moved = motionOfBackground(cameraRay(pixel).dir);
     imageStore(gDepthOut, at, vec4(depthM));
     imageStore(gSurfaceOut, at, surface);
     imageStore(gMaterialOut, at, uvec4(material));

@@ -45,9 +45,9 @@ void main() {
             if (!lobeMade) lobe = makeLtcLobe(receiver.point);
             lobeMade = true;
             LightIrradiance lit = lightIrradiance(loadOwnLightHot(s.slot), receiver.point, lobe);
-            vec3 emission = lit.emission * (frame.exposure * visible);
-            diffuse += emission * (lit.diffuse * KX_INV_PI);
-            specular += emission * (f0 * lit.specular.x + vec3(lit.specular.y));
+            float exposed = frame.exposure * visible;
+            diffuse += lit.emission * (exposed * lit.diffuse * KX_INV_PI);
+            specular += lit.specularEmission * exposed * (f0 * lit.specular.x + vec3(lit.specular.y));
         }
         if (lobeMade) specular /= environmentBrdf(lobe.albedo, f0);
     }

@@ -62,7 +62,7 @@ uvec2 seenSample(uvec2 pixel, uint layer) {
     uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
     if ((result & RAY_STATE_MASK) != RAY_VISIBLE) return uvec2(kNone, 0u);
     StoredSample s = unpackSample(texelFetch(samples, ivec3(pixel, layer), 0));
-    if (s.list == LIST_DIRECTIONAL) return uvec2(kNone, 0u);
+    if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) return uvec2(kNone, 0u);
     uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
     return uvec2(s.slot, energy << 4u | 1u << (result >> RAY_QUARTER_SHIFT & 3u));
 }

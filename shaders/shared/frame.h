@@ -30,7 +30,10 @@ struct FrameConstants {
     float exposure;      // display value = exposure * luminance [nit]
     float pixelAngleRad; // 2 tan(fovY / 2) / height; orthographic: 0
     float zNearM;
-    uint rasterized; // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
+    uint rasterized;     // 1 when the visibility came from raster, whose depth snaps corners to 1/256 px
+    vec3 backgroundNit;  // of a texel of the dome's picture of 1
+    vec2 backgroundTurn; // cosine and sine of its turn about +Y
+    vec3 fillNit;        // plain ambient light
     GridConstants grid;
     // Motion and history. Both matrices are without jitter and relative to this frame's anchor.
     mat4 steadyClipFromWorld;

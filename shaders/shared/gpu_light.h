@@ -16,6 +16,7 @@ KX_CONST uint LIGHT_SPOT = 2u;             // a sphere source shaped by a cone a
 KX_CONST uint LIGHT_TUBE = 3u;             // a capsule along the tangent
 KX_CONST uint LIGHT_RECT = 4u;             // one-sided, tangent is the width axis
 KX_CONST uint LIGHT_DISK = 5u;             // one-sided
+KX_CONST uint LIGHT_DOME = 6u;             // light from all around by a picture; at most one
 KX_CONST uint LIGHT_UNIFORM_SLOTS = 1024u; // hot records that a uniform block holds: 64 KiB
 KX_CONST uint LIGHT_TYPE_MASK = 15u;
 KX_CONST uint LIGHT_FLAG_DEAD = 16u;   // freed or never used slot: weight 0

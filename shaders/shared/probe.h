@@ -39,8 +39,8 @@ struct ProbeSurface {
     uint listLights; // on the visible list
     uvec2 listTile;  // whose list that is, of the previous frame's tiles
     uint missed;     // reprojection failed
-    vec3 sums;       // of weights: visible, hidden, directional
-    vec2 budgeted;   // what the last two count for
+    vec4 sums;       // of weights: visible, hidden, directional, dome
+    vec3 budgeted;   // what the last three count for
 };
 
 KX_CONST uint PROBE_REACHES = 1u;    // on, within range, cone and side

@@ -73,6 +73,7 @@ struct SamplingConstants {
     float hiddenRelaxedBelow; // a weight
     float directionalShare;
     float directionalFreeBelow; // a weight
+    float domeShare;
     uint cellCandidates;
     uint missCandidates;
     float dimThreshold; // a weight

@@ -58,8 +58,9 @@ class Features : public testing::TestWithParam<Feature> {};
 TEST_P(Features, WhatIsAbsentCostsNothing) {
     const Feature feature = GetParam();
     gpu::SpecValues others;
-    for (const int id : {shared::FEATURE_BARN_DOORS, shared::FEATURE_IES_PROFILES,
-                         shared::FEATURE_LIGHT_FUNCTIONS, shared::FEATURE_LIGHT_CHANNELS})
+    for (const int id :
+         {shared::FEATURE_BARN_DOORS, shared::FEATURE_IES_PROFILES, shared::FEATURE_LIGHT_FUNCTIONS,
+          shared::FEATURE_LIGHT_CHANNELS, shared::FEATURE_DOME})
         others[std::uint32_t(id)] = id == feature.id;
     gpu::SpecValues none = others;
     none[std::uint32_t(feature.id)] = 0;
@@ -86,6 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Feature{"barn doors", shared::FEATURE_BARN_DOORS, "lightShapings"},
                     Feature{"profiles", shared::FEATURE_IES_PROFILES, "iesProfiles"},
                     Feature{"functions", shared::FEATURE_LIGHT_FUNCTIONS, "functionImages"},
+                    Feature{"dome", shared::FEATURE_DOME, "domeDistribution"},
                     Feature{"channels", shared::FEATURE_LIGHT_CHANNELS, "lightShapings"}));
 
 TEST(TraceFeatures, ChannelShadowsCostNothingWhereNoLightHasThem) {

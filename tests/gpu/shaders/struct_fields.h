@@ -16,12 +16,12 @@
 #define FIELDS_FrameConstants(F) \
     F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
     F(size) F(outputSize) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \
-    F(rasterized) F(grid) F(steadyClipFromWorld) F(previousClipFromWorld) F(depthRow) F(previousDepthRow) \
+    F(rasterized) F(backgroundNit) F(backgroundTurn) F(fillNit) F(grid) F(steadyClipFromWorld) F(previousClipFromWorld) F(depthRow) F(previousDepthRow) \
     F(previousSize) F(previousTiles) F(exposureRatio) F(historyValid) F(sampling) F(denoising)
 #define FIELDS_RayListHead(F) F(groupsX) F(groupsY) F(groupsZ) F(count)
 #define FIELDS_SamplingConstants(F) \
     F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(hiddenShare) \
-    F(missHiddenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) \
+    F(missHiddenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) F(domeShare) \
     F(cellCandidates) F(missCandidates) F(dimThreshold) F(dimMode) F(listLength) F(listMemory) \
     F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
 #define FIELDS_DenoisingConstants(F) \

@@ -15,6 +15,7 @@ struct Case {
     f64::SelectionBudget budget;
     double hiddenShare;      // expected, of all samples
     double directionalShare; // expected, of all samples
+    double domeShare = 0.0;  // expected, of all samples
 };
 
 f64::SelectionBudget failedReprojection() {
@@ -25,10 +26,16 @@ f64::SelectionBudget failedReprojection() {
 
 std::vector<Case> cases() {
     const f64::SelectionBudget usual = defaultBudget();
-    const f64::SelectionBudget closed = {
-        .hiddenShare = 0.0, .hiddenRelaxedBelow = 0.0, .directionalShare = 0.0, .directionalFreeBelow = 0.0};
-    const f64::SelectionBudget open = {
-        .hiddenShare = 1.0, .hiddenRelaxedBelow = 0.0, .directionalShare = 1.0, .directionalFreeBelow = 0.0};
+    const f64::SelectionBudget closed = {.hiddenShare = 0.0,
+                                         .hiddenRelaxedBelow = 0.0,
+                                         .directionalShare = 0.0,
+                                         .directionalFreeBelow = 0.0,
+                                         .domeShare = 0.0};
+    const f64::SelectionBudget open = {.hiddenShare = 1.0,
+                                       .hiddenRelaxedBelow = 0.0,
+                                       .directionalShare = 1.0,
+                                       .directionalFreeBelow = 0.0,
+                                       .domeShare = 1.0};
     const double least = 1.0 / 1024.0; // what a share of 0 is raised to
     return {
         {"one visible", {{2.0}, {}, {}}, usual, 0.0, 0.0},
@@ -60,6 +67,15 @@ std::vector<Case> cases() {
         {"shares of 0 lose nobody", {{1.0}, {9.0}, {}}, closed, least, 0.0},
         {"directional share of 0", {{1.0}, {}, {9.0}}, closed, 0.0, least},
         {"no budgets", {{1.0, 2.0}, {3.0, 4.0}, {10.0}}, open, 7.0 / 20.0, 0.5},
+        {"dome alone", {{}, {}, {}, 2.0}, usual, 0.0, 0.0, 1.0},
+        {"dome capped", {{1.0, 2.0}, {}, {}, 90.0}, usual, 0.0, 0.0, 0.5},
+        {"dome under its cap", {{1.0, 2.0}, {}, {}, 1.0}, usual, 0.0, 0.0, 0.25},
+        {"dome free beside dim lights", {{0.05}, {}, {}, 4.95}, usual, 0.0, 0.0, 0.99},
+        {"dome capped beside hidden lights", {{}, {1.0, 3.0}, {}, 50.0}, usual, 0.5, 0.0, 0.5},
+        {"dome and suns", {{}, {}, {2.0, 1.0}, 1.0}, usual, 0.0, 0.75, 0.25},
+        {"all capped", {{1.0, 3.0}, {20.0, 10.0}, {50.0, 7.0}, 90.0}, usual, 0.05, 0.25, 0.5},
+        {"dome share of 0", {{1.0}, {}, {}, 9.0}, closed, 0.0, 0.0, least},
+        {"dome of weight 0", {{1.0}, {}, {}, 0.0}, usual, 0.0, 0.0, 0.0},
         {"even split", {{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}}, open, 1.0 / 3.0, 1.0 / 3.0},
     };
 }
@@ -67,7 +83,8 @@ std::vector<Case> cases() {
 double shareOf(uint list, const Case& c) {
     if (list == f64::LIST_HIDDEN) return c.hiddenShare;
     if (list == f64::LIST_DIRECTIONAL) return c.directionalShare;
-    return 1.0 - c.hiddenShare - c.directionalShare;
+    if (list == f64::LIST_DOME) return c.domeShare;
+    return 1.0 - c.hiddenShare - c.directionalShare - c.domeShare;
 }
 
 // What the definition asks for: the list's share times the weight's share of the list.
@@ -80,6 +97,7 @@ std::vector<double> expectedProbabilities(const Case& c) {
             expected.push_back(sum > 0.0 ? shareOf(list, c) * weight / sum : 0.0);
         ++list;
     }
+    if (c.lights.dome >= 0.0) expected.push_back(c.domeShare);
     return expected;
 }
 
@@ -87,7 +105,7 @@ TEST(Budget, ReportedProbabilitiesAreTheDefinition) {
     for (const Case& c : cases()) {
         const std::vector<double> expected = expectedProbabilities(c);
         const f64::LightSelection all = select(c.lights.candidates(), {0.5, 0.5, 0.5});
-        const f64::vec3 sums(all.visibleSum, all.hiddenSum, all.directionalSum);
+        const f64::vec4 sums(all.visibleSum, all.hiddenSum, all.directionalSum, all.domeSum);
         double sum = 0.0;
         for (const auto& [item, choice] : outcomes(c.lights.candidates(), c.budget)) {
             ASSERT_LT(item, expected.size()) << c.name;
@@ -128,7 +146,8 @@ TEST(Budget, FrequencyIsTheReportedProbability) {
             const uint list = candidates[item].list;
             const double within = list == f64::LIST_DIRECTIONAL ? 3.0 / gridDirectional : 3.0 / gridHidden;
             const double resolution =
-                4.0 / gridVisible + (list == f64::LIST_VISIBLE ? 0.0 : within * shareOf(list, c));
+                4.0 / gridVisible +
+                (list == f64::LIST_VISIBLE || list == f64::LIST_DOME ? 0.0 : within * shareOf(list, c));
             EXPECT_NEAR(frequency[item], expected[item], resolution) << c.name << ", item " << item;
             if (expected[item] == 0.0) {
                 EXPECT_EQ(frequency[item], 0.0) << c.name << ", item " << item;
@@ -142,7 +161,7 @@ TEST(Budget, FrequencyOfEachNumberFinely) {
     for (const Case& c : cases()) {
         const std::vector<f64::Candidate> candidates = c.lights.candidates();
         const std::vector<double> expected = expectedProbabilities(c);
-        std::vector<double> numberOfList(3, -1.0);
+        std::vector<double> numberOfList(4, -1.0);
         std::map<uint, double> byVisible = measureByKey(
             [&](double u) {
                 const f64::LightChoice choice =
@@ -153,7 +172,7 @@ TEST(Budget, FrequencyOfEachNumberFinely) {
             8192);
         for (uint item = 0; item < c.lights.visible.size(); ++item)
             EXPECT_NEAR(byVisible[item], expected[item], 1e-7) << c.name << ", item " << item;
-        for (const uint list : {f64::LIST_HIDDEN, f64::LIST_DIRECTIONAL}) {
+        for (const uint list : {f64::LIST_HIDDEN, f64::LIST_DIRECTIONAL, f64::LIST_DOME}) {
             EXPECT_NEAR(byVisible[1000 + list], shareOf(list, c), 1e-7) << c.name << ", list " << list;
             if (numberOfList[list] < 0.0) continue;
             std::map<uint, double> byOwn = measureByKey(

@@ -10,12 +10,16 @@ std::vector<f64::Candidate> Lights::candidates() const {
         all.push_back({static_cast<uint>(all.size()), f64::LIST_HIDDEN, weight, 1.0});
     for (const double weight : directional)
         all.push_back({static_cast<uint>(all.size()), f64::LIST_DIRECTIONAL, weight, 1.0});
+    if (dome >= 0.0) all.push_back({static_cast<uint>(all.size()), f64::LIST_DOME, dome, 1.0});
     return all;
 }
 
 f64::SelectionBudget defaultBudget() {
-    return {
-        .hiddenShare = 0.2, .hiddenRelaxedBelow = 0.1, .directionalShare = 0.5, .directionalFreeBelow = 0.1};
+    return {.hiddenShare = 0.2,
+            .hiddenRelaxedBelow = 0.1,
+            .directionalShare = 0.5,
+            .directionalFreeBelow = 0.1,
+            .domeShare = 0.5};
 }
 
 f64::LightSelection select(const std::vector<f64::Candidate>& candidates, const f64::vec3& numbers,

@@ -13,17 +13,20 @@ namespace kilolux::test {
 
 using uint = std::uint32_t;
 
-// Candidates by list; their items are 0 .. n - 1 over all three in this order.
+// Candidates by list; their items are 0 .. n - 1 over all of them in this order.
 struct Lights {
     std::vector<double> visible;
     std::vector<double> hidden;
     std::vector<double> directional;
+    double dome = -1.0; // its weight; none below 0
 
-    uint count() const { return static_cast<uint>(visible.size() + hidden.size() + directional.size()); }
+    uint count() const {
+        return static_cast<uint>(visible.size() + hidden.size() + directional.size() + (dome >= 0.0 ? 1 : 0));
+    }
     std::vector<f64::Candidate> candidates() const;
 };
 
-// The talk's 20 and 50 %, both relaxed below 0.1.
+// The talk's 20 and 50 %, both relaxed below 0.1; the dome's 50 %.
 f64::SelectionBudget defaultBudget();
 
 f64::LightSelection select(const std::vector<f64::Candidate>& candidates, const f64::vec3& numbers,
