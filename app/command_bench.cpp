@@ -3,11 +3,15 @@
 #include "app/commands.h"
 
 #include "renderer/bench/bench.h"
+#include "renderer/bench/bench_scene.h"
+#include "renderer/bench/sweep.h"
 #include "renderer/settings_presets.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <ctime>
 #include <fmt/format.h>
@@ -24,7 +28,7 @@ struct Arguments {
     std::vector<std::string> scenes;
     std::string methods = "stochastic,restir,resampling,uniform";
     bool presets = false;
-    std::string size = "320x180", camera, folder, older;
+    std::string size = "320x180", camera, folder, older, references, sweep, changes, budgets;
     bench::BenchPlan plan;
 };
 
@@ -54,17 +58,73 @@ std::string presetMethods() {
     return list;
 }
 
+// As a shell reads it again.
+std::string quoted(const std::string& text) {
+    const bool plain =
+        !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                "0123456789_-./:,=+") == std::string::npos;
+    if (plain) return text;
+    std::string result = "'";
+    for (const char c : text)
+        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return result + "'";
+}
+
 // What repeats the run, defaults spelled out.
 std::string commandOf(const Arguments& a) {
     std::string command = "kilolux bench";
     for (const std::string& scene : a.scenes)
-        command += " " + fs::path(scene).filename().string();
-    command +=
-        fmt::format(" -o {} --methods {} --size {} --frames {} --repetitions {} --reference-frames {}",
-                    a.folder, a.methods, a.size, a.plan.frames, a.plan.repetitions, a.plan.referenceFrames);
-    if (!a.camera.empty()) command += " --camera " + a.camera;
-    if (!a.plan.budgetsMs.empty()) command += fmt::format(" --budgets {}", fmt::join(a.plan.budgetsMs, ","));
+        command += " " + quoted(scene);
+    command += fmt::format(" -o {} --methods {} --size {} --frames {} --repetitions {} --reference-frames {}",
+                           quoted(a.folder), quoted(a.methods), a.size, a.plan.frames, a.plan.repetitions,
+                           a.plan.referenceFrames);
+    for (const auto& [name, value] : {std::pair{"--camera", &a.camera},
+                                      {"--budgets", &a.budgets},
+                                      {"--sweep", &a.sweep},
+                                      {"--changes", &a.changes}})
+        if (!value->empty()) command += fmt::format(" {} {}", name, quoted(*value));
     return command;
+}
+
+// "16ms,64ms,4rays": of direct lighting, or per pixel. A plain number is in ms.
+std::optional<Error> parseBudgets(const std::string& text, bench::BenchPlan& plan) {
+    std::vector<double> ms, rays;
+    for (const std::string& part : splitAt(text, ',')) {
+        std::size_t used = 0;
+        double value = 0.0;
+        try {
+            value = std::stod(part, &used);
+        } catch (const std::exception&) {
+            used = 0;
+        }
+        const std::string unit = part.substr(used);
+        if (used == 0 || !(value > 0.0) || !std::isfinite(value) ||
+            (unit != "" && unit != "ms" && unit != "rays"))
+            return Error{fmt::format("--budgets: '{}': expected a number above 0 and 'ms' or 'rays'", part)};
+        (unit == "rays" ? rays : ms).push_back(value);
+    }
+    std::sort(ms.begin(), ms.end());
+    std::sort(rays.begin(), rays.end());
+    plan.budgetsMs = ms;
+    if (!rays.empty()) plan.budgetsRays = rays;
+    return std::nullopt;
+}
+
+// Sweep, changes, budgets and references.
+std::optional<Error> parseWhatElse(Arguments& a) {
+    const auto sweep = bench::sweepFromName(a.sweep);
+    if (!sweep)
+        return Error{fmt::format("--sweep: '{}': expected lights, resolution, triangles or rays", a.sweep)};
+    a.plan.sweep = *sweep;
+    for (const std::string& name : a.changes.empty() ? std::vector<std::string>{} : splitAt(a.changes, ',')) {
+        const auto change = bench::changeFromName(name);
+        if (!change)
+            return Error{fmt::format(
+                "--changes: '{}': expected lights-on, lights-move or camera-turns, by commas", name)};
+        a.plan.changes.push_back(*change);
+    }
+    a.plan.references = a.references;
+    return a.budgets.empty() ? std::nullopt : parseBudgets(a.budgets, a.plan);
 }
 
 Problem checkArguments(Arguments& a) {
@@ -86,7 +146,8 @@ Problem checkArguments(Arguments& a) {
         if (!method) return Failure{ExitCode::BadInput, fmt::format("--methods: {}", method.error())};
         a.plan.methods.push_back(std::move(method.value()));
     }
-    std::sort(a.plan.budgetsMs.begin(), a.plan.budgetsMs.end());
+    if (const auto error = parseWhatElse(a)) return Failure{ExitCode::BadInput, error->message};
+    if (const auto error = bench::checkScenes(a.plan)) return Failure{ExitCode::BadInput, error->message};
     std::error_code failure;
     fs::create_directories(a.folder, failure);
     if (failure) {
@@ -106,11 +167,12 @@ Result<nlohmann::ordered_json> readOlder(const std::string& file) {
     return json;
 }
 
-// Ctrl+C asks for the end: the present step is finished, and what is done is written.
-volatile std::sig_atomic_t stopAsked = 0;
+// Ctrl+C asks for the end: what is done is written.
+std::atomic<bool> stopAsked = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal's handler sets it");
 
 void askForStop(int) {
-    stopAsked = 1;
+    stopAsked = true;
 }
 
 bench::OnProgress progressLine() {
@@ -121,7 +183,7 @@ bench::OnProgress progressLine() {
         std::string left;
         if (p.done > 0) left = fmt::format(", about {:.0f} s left", elapsedS / p.done * (p.all - p.done));
         fmt::print(stderr, "{} of {}: {}{}\n", p.done + 1, p.all, p.doing, left);
-        return stopAsked == 0;
+        return !stopAsked;
     };
 }
 
@@ -135,6 +197,7 @@ Problem runCommand(Arguments& a) {
     }
     a.plan.date = dateNow();
     a.plan.command = commandOf(a);
+    a.plan.stop = &stopAsked;
     std::signal(SIGINT, askForStop);
     const Result<bench::BenchResult> result = bench::runBench(a.plan, progressLine());
     std::signal(SIGINT, SIG_DFL);
@@ -154,11 +217,13 @@ Problem runCommand(Arguments& a) {
 
 constexpr const char* kExamples = R"(Examples:
   kilolux bench gallery.glb night_market.glb -o report
-  kilolux bench gallery.glb -o report --methods stochastic,restir:reuseUnbiased=true,stochastic:guiding=false
+  kilolux bench gallery.glb -o report --methods stochastic,restir:reuseWeights=rays,stochastic:guiding=false
   kilolux bench gallery.glb -o report --compare old/bench.json
   kilolux bench gallery.glb -o report --presets      cost and error of every quality preset
+  kilolux bench gallery.glb -o report --sweep lights --references references
+  kilolux bench gallery.glb -o report --changes lights-on,camera-turns
 
-The first method is what the others are compared with. Ctrl+C stops after the present step and writes what is done.)";
+The first method is what the others are compared with. Ctrl+C stops and writes what is done.)";
 
 } // namespace
 
@@ -190,10 +255,14 @@ Command addBenchCommand(CLI::App& app) {
         ->check(CLI::Range(2, 65536).description(""))
         ->type_name("N")
         ->capture_default_str();
-    bench->add_option("--budgets", a.plan.budgetsMs, "ms of direct lighting at which errors are compared")
-        ->delimiter(',')
-        ->check(CLI::PositiveNumber)
-        ->type_name("MS,...");
+    bench->add_option("--budgets", a.budgets, "where errors are compared: 16ms,64ms,4rays (a pixel)")
+        ->type_name("LIST");
+    bench->add_option("--sweep", a.sweep, "scaling over lights, resolution, triangles or rays")
+        ->type_name("NAME");
+    bench->add_option("--changes", a.changes, "by commas: lights-on, lights-move, camera-turns")
+        ->type_name("LIST");
+    bench->add_option("--references", a.references, "keep references here, and take them from here")
+        ->type_name("FOLDER");
     bench->add_option("--compare", a.older, "print ratios against an older bench.json")->type_name("FILE");
     bench->footer(kExamples);
     return [arguments] {

@@ -1,6 +1,8 @@
 // The frame from top to bottom.
 #include "renderer/frame.h"
 
+#include "shaders/shared/features.h"
+
 namespace kilolux {
 
 FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
@@ -65,13 +67,29 @@ shared::ResamplingConstants resamplingConstants(Method method, const Settings& s
     const bool resamples = method == Method::Resampling || method == Method::Restir;
     shared::ResamplingConstants c{};
     c.candidates = resamples ? std::uint32_t(s.resampleCandidates) : 1u;
-    c.byPower = method == Method::Power || (resamples && s.resampleFrom == ResampleFrom::Power);
     c.reuse = method == Method::Restir;
     c.mostHistory = float(s.reuseFrames) * float(c.candidates);
     c.neighbours = std::uint32_t(s.reuseNeighbours);
     c.radiusPx = float(s.reuseRadius);
-    c.unbiased = s.reuseUnbiased;
+    c.weights = std::uint32_t(s.reuseWeights);
     return c;
+}
+
+int drawnFrom(Method method, const Settings& s) {
+    switch (method) {
+    case Method::Power:
+        return shared::DRAW_FROM_POWER;
+    case Method::Brdf:
+        return shared::DRAW_FROM_BRDF;
+    case Method::Hierarchy:
+        return shared::DRAW_FROM_TREE;
+    case Method::Resampling:
+    case Method::Restir:
+        if (s.resampleFrom == ResampleFrom::Power) return shared::DRAW_FROM_POWER;
+        return s.resampleFrom == ResampleFrom::Hierarchy ? shared::DRAW_FROM_TREE : shared::DRAW_FROM_CELL;
+    default:
+        return shared::DRAW_FROM_CELL;
+    }
 }
 
 const gpu::Image& shownPicture(const Targets& targets, const FramePlan& plan) {

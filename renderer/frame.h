@@ -70,6 +70,9 @@ struct FramePasses {
 // What a method that resamples asks for.
 shared::ResamplingConstants resamplingConstants(Method method, const Settings& settings);
 
+// DRAW_FROM_* of shaders/shared/features.h.
+int drawnFrom(Method method, const Settings& settings);
+
 // The filters that the settings ask for, and no others.
 void planFilters(FramePlan& plan, const Settings& settings);
 

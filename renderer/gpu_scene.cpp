@@ -5,6 +5,7 @@
 #include "renderer/gpu_lights.h"
 #include "renderer/gpu_textures.h"
 #include "renderer/light_powers.h"
+#include "renderer/light_tree.h"
 #include "renderer/lights_cpp/lights_f32.h"
 #include "renderer/lights_cpp/ltc_table.h"
 #include "shaders/shared/features.h"
@@ -276,12 +277,23 @@ void GpuScene::updateLights(const Scene& scene, double exposureEv100, std::uint6
                          : storageBuffer(device_, "lightShapings", slots_.shapings(), "lights");
     directionalSlots_ = storageBuffer(device_, "directionalSlots", directional, "lights");
     lightPowers_ = gpu::Buffer();
+    lightTree_ = gpu::Buffer();
 }
 
-void GpuScene::prepareLightPowers(double sceneExtentM) {
-    if (lightPowers_) return;
-    const std::vector<double> powers = kilolux::lightPowers(slots_.hot(), slots_.cold(), sceneExtentM);
-    lightPowers_ = storageBuffer(device_, "lightPowers", aliasTable(powers), "lights");
+void GpuScene::prepareLightDraws(int drawnFrom, double sceneExtentM) {
+    if (drawnFrom == DRAW_FROM_POWER && !lightPowers_) {
+        const std::vector<double> powers = kilolux::lightPowers(slots_.hot(), slots_.cold(), sceneExtentM);
+        lightPowers_ = storageBuffer(device_, "lightPowers", aliasTable(powers), "lights");
+    }
+    if (drawnFrom == DRAW_FROM_TREE && !lightTree_)
+        lightTree_ = storageBuffer(device_, "lightTree", makeLightTree(slots_.hot()), "lights");
+}
+
+gpu::Bindings GpuScene::lightDrawBindings() const {
+    gpu::Bindings bindings;
+    if (lightPowers_) bindings.emplace_back("LightPowers", lightPowers_);
+    if (lightTree_) bindings.emplace_back("LightTree", lightTree_);
+    return bindings;
 }
 
 // Pictures of lights come and go by edits; what is there already stays.

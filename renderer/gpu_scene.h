@@ -69,9 +69,10 @@ class GpuScene {
     gpu::Bindings lightBindings() const;                       // shaders/lib/light_access.glsl
     gpu::Binding environmentBrdf() const;                      // shaders/lib/environment_brdf_table.glsl
     const gpu::Buffer& directionalSlots() const { return directionalSlots_; }
-    // Made by prepareLightPowers(), for methods that draw lights by power.
-    const gpu::Buffer& lightPowers() const { return lightPowers_; }
-    void prepareLightPowers(double sceneExtentM);
+    // What candidates are drawn from (DRAW_FROM_*), anew after every change of lights; empty where not asked
+    // for.
+    void prepareLightDraws(int drawnFrom, double sceneExtentM);
+    gpu::Bindings lightDrawBindings() const;
     std::uint32_t directionalCount() const { return directionalCount_; } // the dome among them
     // The dome's picture as shaders/passes/composite.comp shows it behind the scene.
     bool showsDome() const { return showsDome_; }
@@ -110,7 +111,7 @@ class GpuScene {
     gpu::Buffer vertexBuffer_, indexBuffer_, uv1Buffer_, instanceBuffer_, materialBuffer_;
     std::array<gpu::Image, shared::TEXTURE_CLASSES> textures_;
     gpu::Buffer lightsHot_, lightsCold_, lightShapings_, directionalSlots_, previousInstanceBuffer_;
-    gpu::Buffer lightPowers_; // empty: to be made anew
+    gpu::Buffer lightPowers_, lightTree_; // empty: to be made anew
     std::uint32_t directionalCount_ = 0;
     bool showsDome_ = false;
     gpu::Image ltcParameters_, ltcScales_, iesProfiles_, functionImages_;

@@ -162,7 +162,8 @@ bool Renderer::Impl::submitFrame(gpu::Commands& commands, FrameContext& context)
 void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes) {
     const double timeS = options.settings.timeS + index * options.settings.timeStepS;
     updateScene(timeS);
-    if (plan.resamples()) gpuScene->prepareLightPowers(sceneExtentM);
+    if (plan.resamples())
+        gpuScene->prepareLightDraws(int(features.at(shared::CHOICE_DRAW_FROM)), sceneExtentM);
     const bool turns = historyReset.empty();
     // Frozen at once, it holds the first frame: before that there is nothing to hold.
     const bool turnsFiltered = turns && (historyBegins || !(options.settings.freezeHistory && frozen(index)));

@@ -235,6 +235,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
     features[shared::CHOICE_HALF_SAMPLING] = std::uint32_t(options.settings.sampling);
     plan.resampling = resamplingConstants(plan.method, options.settings);
+    features[shared::CHOICE_DRAW_FROM] = std::uint32_t(drawnFrom(plan.method, options.settings));
     if (plan.resamples()) constants.sampling.rays = 1;
     features[shared::CHOICE_DEMODULATED] = plan.filtersLight();
     features[shared::CHOICE_COMPACT_RAYS] = plan.compactRays;

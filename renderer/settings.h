@@ -23,7 +23,8 @@ enum class GBufferChoice { Auto, Raster, Compute };
 enum class Noise { Blue, White };
 enum class Sampling { Full, HalfCheckerboard, HalfRooks };
 enum class DimLights { Roulette, Drop, Keep };
-enum class ResampleFrom { Cell, Power };
+enum class ResampleFrom { Cell, Power, Hierarchy };
+enum class ReuseWeights { Counts, Targets, Rays };
 enum class PictureChoice { Viewport, Denoised, Mean, Raw };
 
 // A number that the program finds by itself unless the user gives one.
@@ -68,10 +69,10 @@ struct Settings {
     double dimThreshold = 0.001;
     int resampleCandidates = 32;
     ResampleFrom resampleFrom = ResampleFrom::Cell;
-    double reuseFrames = 20.0;
+    double reuseFrames = 4.0;
     int reuseNeighbours = 5;
-    double reuseRadius = 30.0;
-    bool reuseUnbiased = false;
+    double reuseRadius = 8.0;
+    ReuseWeights reuseWeights = ReuseWeights::Targets;
     PictureChoice picture = PictureChoice::Viewport;
     double settleError = 0.5;
     bool denoise = true;

@@ -52,6 +52,14 @@ constexpr std::array kDimLightsWords = {
 constexpr std::array kResampleFromWords = {
     word(ResampleFrom::Cell, "cell", "the lights of the pixel's cell, each as likely"),
     word(ResampleFrom::Power, "power", "all lights of the scene, by power"),
+    word(ResampleFrom::Hierarchy, "hierarchy", "all lights of the scene, by a tree of them"),
+};
+constexpr std::array kReuseWeightsWords = {
+    word(ReuseWeights::Counts, "counts",
+         "as if each could have drawn all: loses light, and gives rare ones far too much"),
+    word(ReuseWeights::Targets, "targets",
+         "by what it would give each of them unshadowed: loses light at shadows' edges"),
+    word(ReuseWeights::Rays, "rays", "by what each of them sees of it, at a ray each: unbiased"),
 };
 constexpr std::array kPictureWords = {
     word(PictureChoice::Viewport, "viewport", "denoised, giving way to the mean as that converges"),
@@ -242,10 +250,9 @@ constexpr std::array kRows = {
                .max = 256.0,
                .unit = "pixels",
                .help = "restir: how far away they are at most"},
-    SettingRow{.name = "reuseUnbiased",
-               .member = &Settings::reuseUnbiased,
-               .help = "restir: a ray per neighbour finds out who could have chosen what was taken; without, "
-                       "light is lost at shadows' edges"},
+    SettingRow{.name = "reuseWeights",
+               .member = choice<&Settings::reuseWeights>(kReuseWeightsWords),
+               .help = "restir: how what was taken is weighed by who could have drawn it"},
     SettingRow{.name = "picture",
                .member = choice<&Settings::picture>(kPictureWords),
                .help = "which picture of the stochastic method is shown"},

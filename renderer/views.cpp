@@ -138,13 +138,17 @@ constexpr auto kViewChoices = [] {
     return choices;
 }();
 
-constexpr std::array<NamedChoice, 8> kMethods{{
+constexpr std::array<NamedChoice, 10> kMethods{{
     {"stochastic", "about one ray per pixel to lights that earlier frames saw, then one denoiser for all"},
     {"all-lights", "every light in range of each pixel with one ray each"},
     {"split", "reference: analytic irradiance times mean visibility; converges over --frames"},
     {"true", "reference: the BRDF at sampled points of every light; converges over --frames"},
     {"uniform", "baseline: one ray per pixel to a light of its cell, each as likely"},
     {"power", "baseline: one ray per pixel to a light of the scene, by power"},
+    {"brdf",
+     "baseline: one ray per pixel where the BRDF reflects, to a light that it meets, or to one without size"},
+    {"hierarchy",
+     "baseline: one ray per pixel to a light found by going down a tree of lights (Conty and Kulla 2018)"},
     {"resampling", "baseline: one ray per pixel to one of resampleCandidates lights, by BRDF times light"},
     {"restir", "baseline: the same with reuse in time and space (ReSTIR DI, Bitterli et al. 2020)"},
 }};

@@ -29,6 +29,8 @@ enum class Method {
     ReferenceTrue,
     Uniform,
     Power,
+    Brdf,
+    Hierarchy,
     Resampling,
     Restir
 };

@@ -6,6 +6,7 @@
 
 #include "renderer/renderer.h"
 
+#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
@@ -21,9 +22,19 @@ struct BenchScene {
 };
 
 struct BenchMethod {
-    std::string label;  // as asked for: "restir:reuseUnbiased=true"
+    std::string label;  // as asked for: "restir:reuseWeights=rays"
     std::string method; // of Renderer::methods()
     Settings settings;
+};
+
+// What grows from one step to the next of a scaling run (sweep.h).
+enum class Sweep { None, Lights, Resolution, Triangles, Rays };
+
+// What happens to a scene while it is looked at (bench_changes.cpp).
+enum class Change {
+    LightsOn,    // every second light is dark at first
+    LightsMove,  // all swing, and animations run
+    CameraTurns, // and uncovers what it did not see
 };
 
 struct BenchPlan {
@@ -33,10 +44,15 @@ struct BenchPlan {
     int height = 180;
     int frames = 32;
     int repetitions = 3;
-    int referenceFrames = 64;      // of 4 rays per light each
-    std::vector<double> budgetsMs; // of direct lighting; empty: 1, 4 and 16 frames of the first method
-    std::string command;           // as typed, for the report
-    std::string date;              // ISO 8601
+    int referenceFrames = 64;         // of 4 rays per light each
+    std::filesystem::path references; // folder that keeps references for other runs; empty: none
+    std::vector<double> budgetsMs;    // of direct lighting; empty: 1, 4 and 16 frames of the first method
+    std::vector<double> budgetsRays = {1.0, 4.0, 16.0}; // per pixel
+    Sweep sweep = Sweep::None;
+    std::vector<Change> changes;
+    const std::atomic<bool>* stop = nullptr; // set: the run ends at the next frame
+    std::string command;                     // as typed, for the report
+    std::string date;                        // ISO 8601
 };
 
 // "NAME" or "NAME:KEY=VALUE:KEY=VALUE". Errors: unknown methods and settings.
@@ -57,11 +73,30 @@ struct BenchRun {
     double raysPerPixel = 0.0;
 };
 
+// Of the last frames of a picture that stands still.
+struct StillFacts {
+    double frameError = 0.0; // relative MSE of one raw frame
+    double flicker = 0.0;    // of the filtered picture (measure/temporal.h)
+    double inTime = 0.0;     // correlation of raw samples
+    double inSpace = 0.0;
+    double hdrFlip = 0.0; // of the filtered picture
+};
+
+struct ChangeResult {
+    Change change = Change::LightsOn;
+    std::vector<double> arrived;  // LightsOn: share of the change, frame by frame from the switch on
+    std::optional<int> lagFrames; // until 90 % of it is there to stay; others: nothing
+    double relativeMse = 0.0;     // of the last frame
+    double flipMean = 0.0;
+};
+
 struct MethodResult {
     BenchMethod method;
     std::string reference;          // "split" or "true"
     std::vector<BenchRun> filtered; // a repetition each
     std::vector<BenchRun> raw;
+    std::optional<StillFacts> still;
+    std::vector<ChangeResult> changes;
     FrameStatistics statistics;       // of the last filtered run
     std::vector<std::uint8_t> shown;  // sRGB: the filtered picture after kShownFrame, of the first repetition
     std::vector<float> shownFlip;     // its FLIP map
@@ -72,6 +107,8 @@ inline constexpr int kShownFrame = 8;
 struct SceneResult {
     BenchScene scene;
     std::string camera;
+    int width = 0, height = 0; // pixels
+    double sweepFactor = 1.0;  // of what the plan's sweep changes
     double exposureEv100 = 0.0;
     double modelGap = 0.0; // relative MSE of 'split' against 'true'
     std::vector<std::uint8_t> referenceShown;
@@ -82,7 +119,7 @@ struct SceneResult {
 struct BenchResult {
     BenchPlan plan;
     std::string device, driver;
-    std::vector<SceneResult> scenes; // fewer than planned when cancelled
+    std::vector<SceneResult> scenes; // one per step of a sweep; fewer than planned when cancelled
     bool cancelled = false;
 };
 
@@ -90,8 +127,12 @@ struct BenchProgress {
     std::string doing;
     int done = 0, all = 0; // steps of about equal length
 };
-// False stops the run after the present step; what is done is kept.
+// False stops the run; what is done is kept, and of a scene what all its methods have.
 using OnProgress = std::function<bool(const BenchProgress&)>;
+
+// What is wrong with the plan's scenes before anything is rendered: a file that cannot be read, a camera that
+// it does not have.
+std::optional<Error> checkScenes(const BenchPlan& plan);
 
 // Errors: no usable device, a scene that cannot be read. A method that cannot run tells so in its result.
 Result<BenchResult> runBench(const BenchPlan& plan, const OnProgress& progress);

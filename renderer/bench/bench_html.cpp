@@ -1,5 +1,8 @@
 // The report as one page: what was measured and how, curves of error against time and rays, tables, pictures.
 #include "renderer/bench/bench_math.h"
+#include "renderer/bench/bench_scene.h"
+#include "renderer/bench/html_parts.h"
+#include "renderer/bench/sweep.h"
 
 #include "renderer/view_colors.h"
 
@@ -15,66 +18,6 @@ namespace kilolux::bench {
 
 namespace {
 
-constexpr std::array kColors = {"#b45f06", "#1f77b4", "#2ca02c", "#9467bd",
-                                "#d62728", "#17becf", "#7f7f7f", "#bcbd22"};
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        case '\'':
-            result += "&#39;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
-}
-
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            word = word << 8 | (k < left ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= left ? digits[word >> (18 - 6 * k) & 63u] : '=';
-    }
-    return text;
-}
-
-// A PNG in the page itself.
-std::string picture(int width, int height, const std::vector<std::uint8_t>& srgb,
-                    const std::string& caption) {
-    if (srgb.empty()) return {};
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const auto output = OIIO::ImageOutput::create("png", &memory);
-    OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    if (!output || !output->open("picture.png", spec) ||
-        !output->write_image(OIIO::TypeDesc::UINT8, srgb.data()) || !output->close())
-        return fmt::format("<p>no picture: {}</p>", escaped(output ? output->geterror() : "no PNG writer"));
-    return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">"
-                       "<figcaption>{}</figcaption></figure>\n",
-                       width, height, escaped(caption), base64(bytes), escaped(caption));
-}
-
 std::vector<std::uint8_t> flipPicture(const std::vector<float>& map) {
     std::vector<std::uint8_t> srgb;
     for (const float value : map)
@@ -84,11 +27,6 @@ std::vector<std::uint8_t> flipPicture(const std::vector<float>& map) {
 }
 
 // --- Curves ----------------------------------------------------------------------------------------------
-
-struct Curve {
-    std::string label;
-    std::vector<std::pair<double, double>> points; // both above 0
-};
 
 // Medians over the repetitions: x = frames * perFrame.
 Curve curveOf(const MethodResult& method, const std::vector<BenchRun>& runs, double BenchRun::*perFrame) {
@@ -105,80 +43,14 @@ Curve curveOf(const MethodResult& method, const std::vector<BenchRun>& runs, dou
     return curve;
 }
 
-class LogPlot {
-  public:
-    LogPlot(const std::vector<Curve>& curves, std::string xLabel)
-        : curves_(curves), xLabel_(std::move(xLabel)) {
-        for (const Curve& curve : curves)
-            for (const auto& [x, y] : curve.points) {
-                low_[0] = std::min(low_[0], std::log10(x));
-                high_[0] = std::max(high_[0], std::log10(x));
-                low_[1] = std::min(low_[1], std::log10(y));
-                high_[1] = std::max(high_[1], std::log10(y));
-            }
-    }
-
-    std::string svg() const {
-        if (low_[0] > high_[0]) return "<p>nothing to plot</p>\n";
-        std::string text =
-            fmt::format("<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\">\n", kWidth, kHeight, kWidth);
-        for (int axis = 0; axis < 2; ++axis)
-            for (int decade = int(std::floor(low_[axis])); decade <= int(std::ceil(high_[axis])); ++decade)
-                text += gridLine(axis, decade);
-        for (std::size_t i = 0; i < curves_.size(); ++i)
-            text += line(curves_[i], kColors[i % kColors.size()], int(i));
-        return text + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
-                                  "<text x=\"12\" y=\"14\">relative MSE</text></svg>\n",
-                                  kLeft + (kRight - kLeft) / 2, kHeight - 4, escaped(xLabel_));
-    }
-
-  private:
-    static constexpr double kWidth = 640, kHeight = 320, kLeft = 60, kRight = 440, kTop = 24, kBottom = 284;
-
-    double place(int axis, double logValue) const {
-        const double from = std::floor(low_[axis]), to = std::max(std::ceil(high_[axis]), from + 1.0);
-        const double t = (logValue - from) / (to - from);
-        return axis == 0 ? std::lerp(kLeft, kRight, t) : std::lerp(kBottom, kTop, t);
-    }
-    std::string gridLine(int axis, int decade) const {
-        const double at = place(axis, decade);
-        const std::string number = fmt::format("{:g}", std::pow(10.0, decade));
-        if (axis == 0)
-            return fmt::format("<line class=\"g\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>"
-                               "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>\n",
-                               at, kTop, kBottom, kBottom + 14, number);
-        return fmt::format("<line class=\"g\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>"
-                           "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
-                           at, kLeft, kRight, kLeft - 4, at + 4, number);
-    }
-    std::string line(const Curve& curve, const char* color, int index) const {
-        std::string points, dots;
-        for (const auto& [x, y] : curve.points) {
-            const double px = place(0, std::log10(x)), py = place(1, std::log10(y));
-            points += fmt::format("{:.1f},{:.1f} ", px, py);
-            dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>", px, py, color);
-        }
-        const double y = kTop + 16.0 * index + 8.0;
-        return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>{}"
-                           "<rect x=\"{}\" y=\"{}\" width=\"10\" height=\"10\" fill=\"{}\"/><text x=\"{}\" "
-                           "y=\"{}\">{}</text>\n",
-                           points, color, dots, kRight + 16, y - 9, color, kRight + 30, y,
-                           escaped(curve.label));
-    }
-
-    const std::vector<Curve>& curves_;
-    std::string xLabel_;
-    double low_[2] = {1e9, 1e9}, high_[2] = {-1e9, -1e9};
-};
-
 std::string plot(const SceneResult& scene, bool filtered) {
     std::vector<Curve> curves;
     for (const MethodResult& method : scene.methods)
         curves.push_back(filtered ? curveOf(method, method.filtered, &BenchRun::lightingMs)
                                   : curveOf(method, method.raw, &BenchRun::raysPerPixel));
-    return LogPlot(curves, filtered ? "ms of direct lighting, denoised picture"
-                                    : "rays per pixel, mean of raw frames")
-        .svg();
+    return logPlot(
+        curves, filtered ? "ms of direct lighting, denoised picture" : "rays per pixel, mean of raw frames",
+        "relative MSE");
 }
 
 // --- Tables ----------------------------------------------------------------------------------------------
@@ -189,9 +61,10 @@ std::string ratioCell(const std::vector<double>& ratios) {
     return fmt::format("<td>{:.2f} <small>{:.2f} to {:.2f}</small></td>", i.median, i.least, i.largest);
 }
 
-std::string methodRow(const SceneResult& scene, const MethodResult& m) {
+std::string methodRow(const SceneResult& scene, const MethodResult& m,
+                      const std::vector<double>& rayBudgets) {
     if (m.error)
-        return fmt::format("<tr><th>{}</th><td colspan=\"9\">{}</td></tr>\n", escaped(m.method.label),
+        return fmt::format("<tr><th>{}</th><td colspan=\"13\">{}</td></tr>\n", escaped(m.method.label),
                            escaped(*m.error));
     std::vector<double> ms, rays, errors, flips, energy;
     for (const BenchRun& run : m.filtered) {
@@ -208,24 +81,123 @@ std::string methodRow(const SceneResult& scene, const MethodResult& m) {
                                   100.0 * (medianOf(energy) - 1.0));
     for (const double budget : scene.budgetsMs)
         row += ratioCell(ratiosAtEqualTime(scene.methods.front(), m, budget));
-    for (const double budget : {1.0, 16.0})
+    for (const double budget : rayBudgets)
         row += ratioCell(ratiosAtEqualRays(scene.methods.front(), m, budget));
     return row + "</tr>\n";
 }
 
-std::string methodTable(const SceneResult& scene, int frames) {
+std::string methodTable(const SceneResult& scene, const BenchPlan& plan) {
     std::string head =
         fmt::format("<tr><th>method</th><th>held against</th><th>ms a frame</th><th>rays a pixel</th>"
                     "<th>MiB</th><th>error, {0} frames</th><th>FLIP, {0} frames</th><th>energy</th>",
-                    frames);
+                    plan.frames);
     for (const double budget : scene.budgetsMs)
         head += fmt::format("<th>error after {:.0f} ms over the first's</th>", budget);
-    for (const int rays : {1, 16})
-        head += fmt::format("<th>raw error after {} rays a pixel over the first's</th>", rays);
+    for (const double rays : plan.budgetsRays)
+        head += fmt::format("<th>raw error after {:g} rays a pixel over the first's</th>", rays);
     std::string rows;
     for (const MethodResult& method : scene.methods)
-        rows += methodRow(scene, method);
+        rows += methodRow(scene, method, plan.budgetsRays);
     return "<table>" + head + "</tr>\n" + rows + "</table>\n";
+}
+
+// Of pictures that stand still: how noisy one frame is, how alike the errors of its samples are, what is left
+// to see.
+std::string stillTable(const SceneResult& scene) {
+    std::string rows;
+    for (const MethodResult& m : scene.methods) {
+        if (!m.still) continue;
+        rows += fmt::format(
+            "<tr><th>{}</th><td>{:.4f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.4f}</td><td>{:.4f}</td>"
+            "</tr>\n",
+            escaped(m.method.label), m.still->frameError, m.still->inTime, m.still->inSpace, m.still->flicker,
+            m.still->hdrFlip);
+    }
+    if (rows.empty()) return {};
+    return "<table><tr><th>standing still, 16th frame</th><th>error of a raw frame</th><th>samples alike in "
+           "time</th>"
+           "<th>and in space</th><th>flicker, denoised</th><th>HDR-FLIP, denoised</th></tr>\n" +
+           rows + "</table>\n";
+}
+
+std::string changeTable(const SceneResult& scene) {
+    std::string rows;
+    for (const MethodResult& m : scene.methods) {
+        for (const ChangeResult& c : m.changes) {
+            std::string lag = "-";
+            if (c.change == Change::LightsOn) lag = c.lagFrames ? fmt::format("{}", *c.lagFrames) : "never";
+            rows +=
+                fmt::format("<tr><th>{}, {}</th><td>{}</td><td>{}</td><td>{:.4f}</td><td>{:.4f}</td></tr>\n",
+                            escaped(m.method.label), changeName(c.change), lag,
+                            c.arrived.empty() ? "-" : fmt::format("{:.0f} %", 100.0 * c.arrived.front()),
+                            c.relativeMse, c.flipMean);
+        }
+    }
+    if (rows.empty()) return {};
+    return "<table><tr><th>while the scene changes, denoised</th><th>frames until 90 % is there</th>"
+           "<th>there in the first</th><th>error, 24th frame</th><th>FLIP, 24th frame</th></tr>\n" +
+           rows + "</table>\n";
+}
+
+// --- Scaling ---------------------------------------------------------------------------------------------
+
+double sweptAmount(Sweep sweep, const SceneResult& step) {
+    const FrameStatistics& statistics = step.methods.front().statistics;
+    switch (sweep) {
+    case Sweep::Lights:
+        return double(statistics.lights);
+    case Sweep::Resolution:
+        return double(step.width) * step.height;
+    case Sweep::Triangles:
+        return double(statistics.triangles);
+    default:
+        return step.sweepFactor;
+    }
+}
+
+double medianMs(const MethodResult& method) {
+    std::vector<double> ms;
+    for (const BenchRun& run : method.filtered)
+        ms.push_back(run.lightingMs);
+    return medianOf(ms);
+}
+
+double lastError(const MethodResult& method) {
+    std::vector<double> errors;
+    for (const BenchRun& run : method.filtered)
+        errors.push_back(run.points.back().relativeMse);
+    return medianOf(errors);
+}
+
+// Time and error over what is swept, for each scene.
+std::string scaling(const BenchResult& result) {
+    const Sweep sweep = result.plan.sweep;
+    if (sweep == Sweep::None) return {};
+    const std::string amount = sweep == Sweep::Resolution ? "pixels"
+                               : sweep == Sweep::Rays     ? "rays a pixel that are asked for"
+                                                          : std::string(sweepName(sweep));
+    std::string text = "<h2>Scaling</h2>\n";
+    for (std::size_t first = 0, end = 0; first < result.scenes.size(); first = end) {
+        const std::filesystem::path file = result.scenes[first].scene.file;
+        while (end < result.scenes.size() && result.scenes[end].scene.file == file)
+            ++end;
+        std::vector<Curve> time, error;
+        for (std::size_t m = 0; m < result.plan.methods.size(); ++m) {
+            time.push_back({result.plan.methods[m].label, {}});
+            error.push_back(time.back());
+            for (std::size_t i = first; i < end; ++i) {
+                const MethodResult& method = result.scenes[i].methods[m];
+                if (method.error || method.filtered.empty()) continue;
+                const double x = sweptAmount(sweep, result.scenes[i]);
+                time.back().points.emplace_back(x, std::max(medianMs(method), 1e-3));
+                error.back().points.emplace_back(x, lastError(method));
+            }
+        }
+        text += fmt::format("<h3>{}</h3>\n", escaped(file.filename().string())) +
+                logPlot(time, amount, "ms of direct lighting a frame") +
+                logPlot(error, amount, fmt::format("relative MSE, denoised, {} frames", result.plan.frames));
+    }
+    return text;
 }
 
 // The talk's stages for opaque surfaces, PlayStation 5 at 1080p, beside the first method's passes here.
@@ -260,47 +232,48 @@ std::string stageTable(const MethodResult& m) {
 
 std::string pictures(const SceneResult& scene, const BenchPlan& plan) {
     const int frame = std::min(kShownFrame, plan.frames);
-    std::string text = picture(plan.width, plan.height, scene.referenceShown, "reference (true)");
+    std::string text = picture(scene.width, scene.height, scene.referenceShown, "reference (true)");
     for (const MethodResult& m : scene.methods) {
-        text += picture(plan.width, plan.height, m.shown, fmt::format("{}, frame {}", m.method.label, frame));
-        text += picture(plan.width, plan.height, flipPicture(m.shownFlip),
+        text +=
+            picture(scene.width, scene.height, m.shown, fmt::format("{}, frame {}", m.method.label, frame));
+        text += picture(scene.width, scene.height, flipPicture(m.shownFlip),
                         fmt::format("{}: FLIP, yellow is 0.5", m.method.label));
     }
     return "<div class=\"pictures\">" + text + "</div>\n";
 }
 
 std::string sceneSection(const SceneResult& scene, const BenchPlan& plan) {
-    return fmt::format(
-               "<h2>{}, camera {}</h2>\n<p>{} lights, {} triangles, EV100 {:.2f}. Relative MSE of 'split' "
-               "against 'true', the error of the shading model: {:.5f}.</p>\n",
-               escaped(scene.scene.file.filename().string()), escaped(scene.camera),
-               scene.methods.front().statistics.lights, scene.methods.front().statistics.triangles,
-               scene.exposureEv100, scene.modelGap) +
-           methodTable(scene, plan.frames) + plot(scene, true) + plot(scene, false) +
-           stageTable(scene.methods.front()) + pictures(scene, plan);
+    const std::string step =
+        plan.sweep == Sweep::None ? "" : fmt::format(", {} x {:g}", sweepName(plan.sweep), scene.sweepFactor);
+    return fmt::format("<h2>{}, camera {}{}</h2>\n<p>{} x {} pixels, {} lights, {} triangles, EV100 {:.2f}. "
+                       "Relative MSE of "
+                       "'split' against 'true', the error of the shading model: {:.5f}.</p>\n",
+                       escaped(scene.scene.file.filename().string()), escaped(scene.camera), step,
+                       scene.width, scene.height, scene.methods.front().statistics.lights,
+                       scene.methods.front().statistics.triangles, scene.exposureEv100, scene.modelGap) +
+           methodTable(scene, plan) + stillTable(scene) + changeTable(scene) + plot(scene, true) +
+           plot(scene, false) + stageTable(scene.methods.front()) + pictures(scene, plan);
 }
 
-// Geometric means over the scenes of error(first) / error(other), at the last budget.
+std::string meanCell(const Interval& mean, std::size_t scenes) {
+    if (scenes == 0) return "<td>-</td>";
+    return fmt::format("<td>{:.2f} <small>{:.2f} to {:.2f}</small>, {} scenes</td>", mean.median, mean.least,
+                       mean.largest, scenes);
+}
+
+// Geometric means over the scenes of error(first) / error(other).
 std::string summary(const BenchResult& result) {
-    std::string rows;
+    std::string head, rows;
     for (std::size_t i = 1; i < result.plan.methods.size(); ++i) {
-        std::vector<double> time, rays;
-        for (const SceneResult& scene : result.scenes) {
-            const std::vector<double> t =
-                ratiosAtEqualTime(scene.methods.front(), scene.methods[i], scene.budgetsMs.back());
-            const std::vector<double> r = ratiosAtEqualRays(scene.methods.front(), scene.methods[i], 16.0);
-            if (!t.empty()) time.push_back(1.0 / medianOf(t));
-            if (!r.empty()) rays.push_back(1.0 / medianOf(r));
+        std::string row;
+        for (const OverScenes& mean : meansOverScenes(result, i)) {
+            row += meanCell(mean.firstOverOther, mean.scenes);
+            if (i == 1) head += fmt::format("<th>{}</th>", escaped(mean.at));
         }
-        rows += fmt::format(
-            "<tr><th>{}</th><td>{}</td><td>{}</td></tr>\n", escaped(result.plan.methods[i].label),
-            time.empty() ? "-" : fmt::format("{:.2f} over {} scenes", geometricMean(time), time.size()),
-            rays.empty() ? "-" : fmt::format("{:.2f} over {} scenes", geometricMean(rays), rays.size()));
+        rows += fmt::format("<tr><th>{}</th>{}</tr>\n", escaped(result.plan.methods[i].label), row);
     }
-    return fmt::format(
-        "<h2>All scenes</h2><table><tr><th>error of {} over that of</th><th>at equal time, denoised</th>"
-        "<th>at 16 rays a pixel, raw</th></tr>\n{}</table>\n",
-        escaped(result.plan.methods.front().label), rows);
+    return fmt::format("<h2>All scenes</h2><table><tr><th>error of {} over that of</th>{}</tr>\n{}</table>\n",
+                       escaped(result.plan.methods.front().label), head, rows);
 }
 
 constexpr const char* kStyle =
@@ -332,9 +305,13 @@ std::string benchHtml(const BenchResult& result) {
         "independent "
         "halves take the reference's own noise out. Time is that of direct lighting alone: culling, choice, "
         "rays, "
-        "shading, denoising. Below a ratio stand the least and the largest of the repetitions.</p>\n",
+        "shading, denoising. Beside a ratio stand the least and the largest of the repetitions. Samples are "
+        "alike when their errors are: 0 is independent, 1 the same; what is alike no filter can take away. A "
+        "picture "
+        "flickers by so much from frame to frame, relative to its light.</p>\n",
         plan.referenceFrames);
     if (plan.methods.size() > 1 && !result.scenes.empty()) page += summary(result);
+    page += scaling(result);
     for (const SceneResult& scene : result.scenes)
         page += sceneSection(scene, plan);
     return page + "</body></html>\n";

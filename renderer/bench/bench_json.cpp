@@ -1,5 +1,7 @@
 // The numbers of a run as JSON, and a run held against an older one.
 #include "renderer/bench/bench_math.h"
+#include "renderer/bench/bench_scene.h"
+#include "renderer/bench/sweep.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -43,7 +45,15 @@ Json ratioJson(double budget, const char* unit, const std::vector<double>& ratio
     return json;
 }
 
-Json methodJson(const SceneResult& scene, const MethodResult& m) {
+Json changeJson(const ChangeResult& c) {
+    Json json{{"change", changeName(c.change)}, {"relativeMse", c.relativeMse}, {"flipMean", c.flipMean}};
+    if (c.change != Change::LightsOn) return json;
+    json["arrived"] = c.arrived;
+    json["lagFrames"] = c.lagFrames ? Json(*c.lagFrames) : Json(nullptr); // it never stayed there
+    return json;
+}
+
+Json methodJson(const SceneResult& scene, const MethodResult& m, const std::vector<double>& rayBudgets) {
     Json json{{"method", m.method.label}, {"reference", m.reference}};
     if (m.error) {
         json["error"] = *m.error;
@@ -56,10 +66,35 @@ Json methodJson(const SceneResult& scene, const MethodResult& m) {
     Json atTime = Json::array(), atRays = Json::array();
     for (const double ms : scene.budgetsMs)
         atTime.push_back(ratioJson(ms, "ms", ratiosAtEqualTime(scene.methods.front(), m, ms)));
-    for (const double rays : {1.0, 4.0, 16.0})
+    for (const double rays : rayBudgets)
         atRays.push_back(ratioJson(rays, "raysPerPixel", ratiosAtEqualRays(scene.methods.front(), m, rays)));
+    if (m.still) {
+        json["still"] = {{"rawFrameRelativeMse", m.still->frameError},
+                         {"flicker", m.still->flicker},
+                         {"correlationInTime", m.still->inTime},
+                         {"correlationInSpace", m.still->inSpace},
+                         {"hdrFlipMean", m.still->hdrFlip}};
+    }
+    for (const ChangeResult& change : m.changes)
+        json["changes"].push_back(changeJson(change));
     json["errorOverFirstAtEqualTime"] = std::move(atTime);
     json["errorOverFirstAtEqualRays"] = std::move(atRays);
+    return json;
+}
+
+// Geometric means of the first method's error over the others'.
+Json meansJson(const BenchResult& result) {
+    Json json = Json::array();
+    for (std::size_t i = 1; i < result.plan.methods.size(); ++i) {
+        Json means = Json::array();
+        for (const OverScenes& mean : meansOverScenes(result, i))
+            means.push_back({{"at", mean.at},
+                             {"mean", mean.firstOverOther.median},
+                             {"least", mean.firstOverOther.least},
+                             {"largest", mean.firstOverOther.largest},
+                             {"scenes", mean.scenes}});
+        json.push_back({{"method", result.plan.methods[i].label}, {"means", means}});
+    }
     return json;
 }
 
@@ -101,9 +136,12 @@ Json benchJson(const BenchResult& result) {
     for (const SceneResult& scene : result.scenes) {
         Json methods = Json::array();
         for (const MethodResult& method : scene.methods)
-            methods.push_back(methodJson(scene, method));
+            methods.push_back(methodJson(scene, method, plan.budgetsRays));
         scenes.push_back({{"scene", scene.scene.file.filename().string()},
                           {"camera", scene.camera},
+                          {"width", scene.width},
+                          {"height", scene.height},
+                          {"sweepFactor", scene.sweepFactor},
                           {"exposureEv100", scene.exposureEv100},
                           {"splitAgainstTrueRelativeMse", scene.modelGap},
                           {"budgetsMs", scene.budgetsMs},
@@ -122,7 +160,9 @@ Json benchJson(const BenchResult& result) {
             {"referenceFrames", plan.referenceFrames},
             {"epsilon", 0.01},
             {"pixelsPerDegree", 67},
+            {"sweep", sweepName(plan.sweep)},
             {"cancelled", result.cancelled},
+            {"firstOverOthers", meansJson(result)},
             {"scenes", scenes}};
 }
 
@@ -132,7 +172,8 @@ Result<std::string> compareWithOlder(const BenchResult& result, const Json& olde
         for (const SceneResult& scene : result.scenes) {
             for (const Json& oldScene : older.at("scenes")) {
                 const std::string name = scene.scene.file.filename().string();
-                if (oldScene.at("scene") != name) continue;
+                if (oldScene.at("scene") != name || oldScene.value("sweepFactor", 1.0) != scene.sweepFactor)
+                    continue;
                 for (const MethodResult& method : scene.methods) {
                     for (const Json& oldMethod : oldScene.at("methods")) {
                         if (oldMethod.at("method") != method.method.label || oldMethod.contains("error") ||

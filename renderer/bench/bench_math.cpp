@@ -1,7 +1,9 @@
 #include "renderer/bench/bench_math.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace kilolux::bench {
 
@@ -64,6 +66,62 @@ std::vector<double> ratiosAtEqualTime(const MethodResult& first, const MethodRes
 std::vector<double> ratiosAtEqualRays(const MethodResult& first, const MethodResult& other,
                                       double raysPerPixel) {
     return ratios(first.raw, other.raw, &BenchRun::raysPerPixel, raysPerPixel);
+}
+
+namespace {
+
+// `ratios`: of other over first, a scene each, a repetition each.
+OverScenes meanOf(std::string at, const std::vector<std::vector<double>>& ratios) {
+    OverScenes result;
+    result.at = std::move(at);
+    std::vector<double> medians;
+    std::size_t repetitions = ratios.empty() ? 0 : ratios.front().size();
+    for (const std::vector<double>& scene : ratios) {
+        medians.push_back(1.0 / medianOf(scene));
+        repetitions = std::min(repetitions, scene.size());
+    }
+    result.scenes = ratios.size();
+    result.firstOverOther = {geometricMean(medians), geometricMean(medians), geometricMean(medians)};
+    for (std::size_t r = 0; r < repetitions; ++r) {
+        std::vector<double> single;
+        for (const std::vector<double>& scene : ratios)
+            single.push_back(1.0 / scene[r]);
+        const double mean = geometricMean(single);
+        result.firstOverOther.least = std::min(result.firstOverOther.least, mean);
+        result.firstOverOther.largest = std::max(result.firstOverOther.largest, mean);
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<OverScenes> meansOverScenes(const BenchResult& result, std::size_t method) {
+    std::vector<OverScenes> means;
+    const std::size_t times = result.scenes.empty() ? 0 : result.scenes.front().budgetsMs.size();
+    for (std::size_t budget = 0; budget < times; ++budget) {
+        std::vector<std::vector<double>> ratios;
+        for (const SceneResult& scene : result.scenes) {
+            ratios.push_back(
+                ratiosAtEqualTime(scene.methods.front(), scene.methods[method], scene.budgetsMs[budget]));
+            if (ratios.back().empty()) ratios.pop_back();
+        }
+        // Without given budgets each scene has its own: so many frames of the first method.
+        constexpr std::array kFrames = {1, 4, 16};
+        means.push_back(
+            meanOf(result.plan.budgetsMs.empty()
+                       ? fmt::format("denoised, time of {} frames of the first", kFrames.at(budget))
+                       : fmt::format("denoised, after {:g} ms", result.plan.budgetsMs[budget]),
+                   ratios));
+    }
+    for (const double rays : result.plan.budgetsRays) {
+        std::vector<std::vector<double>> ratios;
+        for (const SceneResult& scene : result.scenes) {
+            ratios.push_back(ratiosAtEqualRays(scene.methods.front(), scene.methods[method], rays));
+            if (ratios.back().empty()) ratios.pop_back();
+        }
+        means.push_back(meanOf(fmt::format("raw, {:g} rays a pixel", rays), ratios));
+    }
+    return means;
 }
 
 } // namespace kilolux::bench

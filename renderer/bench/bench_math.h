@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 
 namespace kilolux::bench {
 
@@ -28,5 +29,14 @@ std::optional<double> errorAt(const BenchRun& run, double perFrame, double budge
 std::vector<double> ratiosAtEqualTime(const MethodResult& first, const MethodResult& other, double budgetMs);
 std::vector<double> ratiosAtEqualRays(const MethodResult& first, const MethodResult& other,
                                       double raysPerPixel);
+
+// Geometric means over the scenes of error(first) / error(method): at each budget of time, by its place among
+// the budgets, and at each of rays. The interval is that of the means of single repetitions.
+struct OverScenes {
+    std::string at; // the budget, in words
+    Interval firstOverOther;
+    std::size_t scenes = 0; // in which both have a frame by then
+};
+std::vector<OverScenes> meansOverScenes(const BenchResult& result, std::size_t method);
 
 } // namespace kilolux::bench

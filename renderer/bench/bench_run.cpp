@@ -1,152 +1,16 @@
-// Rendering and comparing: the part of the bench that takes time.
+// Rendering and comparing: what is run in which order, and what is kept when it is stopped.
 #include "renderer/bench/bench_math.h"
+#include "renderer/bench/bench_scene.h"
+#include "renderer/bench/sweep.h"
 
 #include "renderer/document/gltf_import.h"
-#include "renderer/gpu_lights.h"
-#include "renderer/measure/flip.h"
-#include "renderer/measure/metrics.h"
-#include "renderer/view_colors.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 
 namespace kilolux::bench {
 
 namespace {
-
-constexpr double kEpsilon = 0.01; // of exposed light, squared
-constexpr int kBlockPx = 16;
-constexpr double kBlockTolerance = 0.02;
-constexpr int kReferenceRays = 4; // per light and frame
-
-// Two halves with their own random numbers: the product of both errors is free of the reference's own noise.
-struct Reference {
-    std::vector<float> halves[2]; // exposed
-    std::vector<float> mean;
-    std::vector<float> shown; // sRGB in 0..1
-};
-
-std::vector<float> exposed(const Picture& picture, double exposure) {
-    std::vector<float> rgb = picture.rgb;
-    for (float& value : rgb)
-        value = float(value * exposure);
-    return rgb;
-}
-
-std::vector<float> displayed(const std::vector<float>& exposedRgb) {
-    std::vector<float> shown;
-    shown.reserve(exposedRgb.size());
-    for (std::size_t i = 0; i + 2 < exposedRgb.size(); i += 3)
-        for (const float value : displayColor({exposedRgb[i], exposedRgb[i + 1], exposedRgb[i + 2]}))
-            shown.push_back(std::clamp(value, 0.0f, 1.0f));
-    return shown;
-}
-
-std::vector<std::uint8_t> bytesOf(const std::vector<float>& srgb) {
-    std::vector<std::uint8_t> bytes;
-    for (const float value : srgb)
-        bytes.push_back(std::uint8_t(std::lround(255.0f * value)));
-    return bytes;
-}
-
-// What the run of one scene shares.
-class SceneBench {
-  public:
-    SceneBench(const BenchPlan& plan, const Scene& scene, SceneResult& result)
-        : plan_(plan), scene_(scene), result_(result) {}
-
-    RenderOptions options(const std::string& method, const Settings& settings, std::uint32_t seed) const {
-        RenderOptions options;
-        options.width = plan_.width;
-        options.height = plan_.height;
-        options.method = method;
-        options.settings = settings;
-        options.settings.jitter = false; // light is compared on one G-buffer
-        options.settings.antiAlias = false;
-        options.camera = result_.camera;
-        options.seed = seed;
-        return options;
-    }
-
-    Result<Reference> reference(const std::string& method) {
-        Reference reference;
-        for (int half = 0; half < 2; ++half) {
-            Settings settings;
-            settings.raysPerLight = kReferenceRays;
-            const RenderOptions how = options(method, settings, 1000u + std::uint32_t(half));
-            Result<std::unique_ptr<Renderer>> renderer = Renderer::create(scene_, how);
-            if (!renderer) return Error{renderer.error()};
-            for (int i = 0; i < std::max(1, plan_.referenceFrames / 2); ++i)
-                if (const auto error = renderer.value()->renderFrame()) return *error;
-            result_.exposureEv100 = renderer.value()->statistics().exposureEv100;
-            reference.halves[half] = exposed(renderer.value()->picture(), exposure());
-        }
-        for (std::size_t i = 0; i < reference.halves[0].size(); ++i)
-            reference.mean.push_back(0.5f * (reference.halves[0][i] + reference.halves[1][i]));
-        reference.shown = displayed(reference.mean);
-        return reference;
-    }
-
-    BenchPoint compare(const Reference& reference, const std::vector<float>& rgb, int frame,
-                       std::vector<float>* flipMap) const {
-        BenchPoint point;
-        point.frame = frame;
-        double sum = 0.0;
-        for (std::size_t i = 0; i < rgb.size(); ++i) {
-            const double wanted = double(reference.mean[i]);
-            const double errors = (double(rgb[i]) - double(reference.halves[0][i])) *
-                                  (double(rgb[i]) - double(reference.halves[1][i]));
-            sum += errors / (wanted * wanted + kEpsilon);
-        }
-        point.relativeMse = std::max(sum / double(rgb.size()), 1e-9);
-        const measure::BlockEnergy energy =
-            measure::blockEnergy(view(reference.mean), view(rgb), kBlockPx, kBlockTolerance);
-        point.energyRatio = energy.meanRatio;
-        point.blocksWithin = energy.withinShare;
-        const std::vector<float> shown = displayed(rgb);
-        measure::FlipResult flip = measure::flip(view(reference.shown), view(shown));
-        point.flipMean = flip.mean;
-        if (flipMap) *flipMap = std::move(flip.map);
-        return point;
-    }
-
-    // One repetition of one method. Fills in the pictures of `into` when they are wanted.
-    std::optional<Error> run(MethodResult& into, const Reference& reference, PictureChoice picture,
-                             int repetition) {
-        Settings settings = into.method.settings;
-        settings.picture = picture;
-        const bool filtered = picture == PictureChoice::Denoised;
-        const RenderOptions how = options(into.method.method, settings, std::uint32_t(repetition) + 1u);
-        Result<std::unique_ptr<Renderer>> renderer = Renderer::create(scene_, how);
-        if (!renderer) return Error{renderer.error()};
-        BenchRun run;
-        int next = 1;
-        for (int frame = 1; frame <= plan_.frames; ++frame) {
-            if (const auto error = renderer.value()->renderFrame()) return error;
-            if (frame != next && frame != plan_.frames) continue;
-            next = frame == next ? 2 * next : next;
-            const std::vector<float> rgb = exposed(renderer.value()->picture(), exposure());
-            const bool keep = filtered && repetition == 0 && frame <= kShownFrame;
-            run.points.push_back(compare(reference, rgb, frame, keep ? &into.shownFlip : nullptr));
-            if (keep) into.shown = bytesOf(displayed(rgb));
-        }
-        const FrameStatistics statistics = renderer.value()->statistics();
-        run.lightingMs = statistics.directLightingMs;
-        run.raysPerPixel = double(statistics.rays) / (double(plan_.frames) * plan_.width * plan_.height);
-        (filtered ? into.filtered : into.raw).push_back(std::move(run));
-        if (filtered) into.statistics = statistics;
-        return std::nullopt;
-    }
-
-    measure::ImageView view(const std::vector<float>& rgb) const { return {plan_.width, plan_.height, rgb}; }
-    double exposure() const { return exposureFromEv100(result_.exposureEv100); }
-
-  private:
-    const BenchPlan& plan_;
-    const Scene& scene_;
-    SceneResult& result_;
-};
 
 std::string chooseCamera(const Scene& scene, const std::string& wanted) {
     if (!wanted.empty() || scene.cameras.empty()) return wanted;
@@ -169,6 +33,7 @@ class Steps {
         ++done_;
         return !stopped_;
     }
+    void stop() { stopped_ = true; }
     bool stopped() const { return stopped_; }
 
   private:
@@ -177,62 +42,124 @@ class Steps {
     bool stopped_ = false;
 };
 
+// What one scene is measured with.
+struct SceneRun {
+    SceneBench bench;
+    SceneResult& result;
+    Reference split, truth;
+    const BenchPlan& plan;
+    Steps& steps;
+    std::string name;
+
+    const Reference& of(const MethodResult& method) const {
+        return method.reference == "split" ? split : truth;
+    }
+    // False: the run is to end.
+    bool stopped(const std::optional<Error>& error) const { return error && error->message == kStopped; }
+};
+
 // Repetitions are interleaved: what disturbs the machine disturbs all methods.
-bool runMethods(SceneBench& bench, SceneResult& result, const Reference& split, const Reference& truth,
-                const BenchPlan& plan, Steps& steps) {
-    for (int repetition = 0; repetition < plan.repetitions; ++repetition) {
-        for (MethodResult& method : result.methods) {
+bool runRepetitions(SceneRun& run) {
+    for (int repetition = 0; repetition < run.plan.repetitions; ++repetition) {
+        for (MethodResult& method : run.result.methods) {
             for (const PictureChoice picture : {PictureChoice::Denoised, PictureChoice::Mean}) {
-                const std::string name =
-                    fmt::format("{}, {}", result.scene.file.stem().string(), method.method.label);
-                if (!steps.next(
-                        fmt::format("{}, repetition {} of {}", name, repetition + 1, plan.repetitions)))
+                if (!run.steps.next(fmt::format("{}, {}, repetition {} of {}", run.name, method.method.label,
+                                                repetition + 1, run.plan.repetitions)))
                     return false;
                 if (method.error) continue;
-                const Reference& reference = method.reference == "split" ? split : truth;
-                if (const auto error = bench.run(method, reference, picture, repetition))
-                    method.error = error->message;
+                const auto error = run.bench.run(method, run.of(method), picture, repetition);
+                if (run.stopped(error)) return false;
+                if (error) method.error = error->message;
             }
         }
     }
     return true;
 }
 
-std::optional<Error> runScene(const BenchPlan& plan, const BenchScene& wanted, Steps& steps,
-                              BenchResult& all) {
-    Result<Scene> scene = importGltf(wanted.file);
-    if (!scene) return Error{scene.error()};
+// What needs one run of a method only.
+bool runOnce(SceneRun& run) {
+    for (MethodResult& method : run.result.methods) {
+        if (!run.steps.next(fmt::format("{}, {}, standing still", run.name, method.method.label)))
+            return false;
+        if (method.error) continue;
+        std::optional<Error> error = run.bench.runStill(method, run.of(method));
+        for (const Change change : run.plan.changes) {
+            if (error) break;
+            if (!run.steps.next(fmt::format("{}, {}, {}", run.name, method.method.label, changeName(change))))
+                return false;
+            error = run.bench.runChange(method, run.of(method), change);
+        }
+        if (run.stopped(error)) return false;
+        if (error) method.error = error->message;
+    }
+    return true;
+}
+
+std::vector<double> budgetsOf(const SceneResult& scene, const BenchPlan& plan) {
+    if (!plan.budgetsMs.empty()) return plan.budgetsMs;
+    std::vector<double> ms, budgets;
+    for (const BenchRun& run : scene.methods.front().filtered)
+        ms.push_back(run.lightingMs);
+    for (const double frames : {1.0, 4.0, 16.0})
+        budgets.push_back(frames * medianOf(ms));
+    return budgets;
+}
+
+// A scene that was stopped keeps its whole repetitions, and stands in the report if every method has one.
+void keepScene(SceneResult&& scene, const BenchPlan& plan, BenchResult& all) {
+    for (MethodResult& method : scene.methods) {
+        const std::size_t whole = std::min(method.filtered.size(), method.raw.size());
+        method.filtered.resize(whole);
+        method.raw.resize(whole);
+        if (whole == 0 && !method.error) return;
+    }
+    scene.budgetsMs = budgetsOf(scene, plan);
+    const FrameStatistics& statistics = scene.methods.front().statistics;
+    all.device = statistics.device;
+    all.driver = statistics.driver;
+    all.scenes.push_back(std::move(scene));
+}
+
+SceneResult emptyResult(const BenchPlan& plan, const BenchScene& wanted, const Scene& scene, double factor) {
     SceneResult result;
     result.scene = wanted;
-    result.camera = chooseCamera(scene.value(), wanted.camera);
+    result.camera = chooseCamera(scene, wanted.camera);
+    result.width = plan.width;
+    result.height = plan.height;
+    result.sweepFactor = factor;
     for (const BenchMethod& method : plan.methods) {
         result.methods.emplace_back();
         result.methods.back().method = method;
         result.methods.back().reference = referenceOf(method.method);
     }
-    SceneBench bench(plan, scene.value(), result);
-    const std::string name = wanted.file.stem().string();
-    if (!steps.next(name + ", reference split")) return std::nullopt;
-    Result<Reference> split = bench.reference("split");
-    if (!split) return Error{split.error()};
-    if (!steps.next(name + ", reference true")) return std::nullopt;
-    Result<Reference> truth = bench.reference("true");
-    if (!truth) return Error{truth.error()};
-    result.modelGap = bench.compare(truth.value(), split.value().mean, 0, nullptr).relativeMse;
-    result.referenceShown = bytesOf(truth.value().shown);
-    if (!runMethods(bench, result, split.value(), truth.value(), plan, steps)) return std::nullopt;
-    result.budgetsMs = plan.budgetsMs;
-    if (result.budgetsMs.empty()) {
-        std::vector<double> ms;
-        for (const BenchRun& run : result.methods.front().filtered)
-            ms.push_back(run.lightingMs);
-        for (const double frames : {1.0, 4.0, 16.0})
-            result.budgetsMs.push_back(frames * medianOf(ms));
+    return result;
+}
+
+std::optional<Error> runScene(const BenchPlan& plan, const BenchScene& wanted, double factor, Steps& steps,
+                              BenchResult& all) {
+    Result<Scene> scene = importGltf(wanted.file);
+    if (!scene) return Error{scene.error()};
+    SceneResult result = emptyResult(plan, wanted, scene.value(), factor);
+    applySweep(plan.sweep, factor, scene.value(), result.width, result.height);
+    SceneRun run{
+        SceneBench(plan, scene.value(), result), result, {}, {}, plan, steps, wanted.file.stem().string()};
+    if (plan.sweep != Sweep::None) run.name += fmt::format(", {} x {:g}", sweepName(plan.sweep), factor);
+    for (const char* method : {"split", "true"}) {
+        if (!steps.next(fmt::format("{}, reference {}", run.name, method))) return std::nullopt;
+        Result<Reference> reference = run.bench.reference(method);
+        if (!reference && reference.error() == kStopped) {
+            steps.stop();
+            return std::nullopt;
+        }
+        if (!reference) return Error{reference.error()};
+        (method == std::string_view("split") ? run.split : run.truth) = std::move(reference.value());
     }
-    const FrameStatistics& statistics = result.methods.front().statistics;
-    all.device = statistics.device;
-    all.driver = statistics.driver;
-    all.scenes.push_back(std::move(result));
+    result.exposureEv100 = run.truth.exposureEv100;
+    result.modelGap = run.bench.compare(run.truth, run.split.mean.pixels, 0).relativeMse;
+    result.referenceShown = bytesOf(displayedAt(run.truth.mean.pixels, run.truth.exposureEv100));
+    const bool whole = runRepetitions(run) && runOnce(run);
+    if (!whole) steps.stop();
+    keepScene(std::move(result), plan, all);
     return std::nullopt;
 }
 
@@ -259,14 +186,31 @@ Result<BenchMethod> parseMethod(std::string_view text) {
     return method;
 }
 
+std::optional<Error> checkScenes(const BenchPlan& plan) {
+    for (const BenchScene& wanted : plan.scenes) {
+        const Result<Scene> scene = importGltf(wanted.file);
+        if (!scene) return Error{scene.error()};
+        const std::vector<Camera>& cameras = scene.value().cameras;
+        const bool has = wanted.camera.empty() || wanted.camera == "derived" ||
+                         std::any_of(cameras.begin(), cameras.end(),
+                                     [&](const Camera& camera) { return camera.name == wanted.camera; });
+        if (!has) return Error{fmt::format("'{}': no camera '{}'", wanted.file.string(), wanted.camera)};
+    }
+    return std::nullopt;
+}
+
 Result<BenchResult> runBench(const BenchPlan& plan, const OnProgress& progress) {
     BenchResult result;
     result.plan = plan;
-    const int perScene = 2 + 2 * plan.repetitions * int(plan.methods.size());
-    Steps steps(progress, perScene * int(plan.scenes.size()));
+    const std::span<const double> factors = sweepFactors(plan.sweep);
+    const int perMethod = 2 * plan.repetitions + 1 + int(plan.changes.size());
+    const int perScene = 2 + perMethod * int(plan.methods.size());
+    Steps steps(progress, perScene * int(plan.scenes.size() * factors.size()));
     for (const BenchScene& scene : plan.scenes) {
-        if (const auto error = runScene(plan, scene, steps, result)) return *error;
-        if (steps.stopped()) break;
+        for (const double factor : factors) {
+            if (steps.stopped()) break;
+            if (const auto error = runScene(plan, scene, factor, steps, result)) return *error;
+        }
     }
     result.cancelled = steps.stopped();
     return result;

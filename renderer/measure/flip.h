@@ -23,4 +23,16 @@ struct FlipResult {
 FlipResult flip(const ImageView& referenceSrgb, const ImageView& testSrgb,
                 double pixelsPerDegree = kDefaultPixelsPerDegree);
 
+// HDR-FLIP of linear pictures (Andersson, Nilsson, Shirley and Akenine-Moeller, "Visualizing Errors in
+// Rendered High Dynamic Range Images", Eurographics 2021 short papers, sections 3 and 4): per pixel the
+// largest LDR-FLIP over exposures, toned by the ACES curve as Narkowicz fits it, from the one that shows the
+// reference's brightest pixel at 0.85 to the one that shows its median there.
+struct HdrExposures {
+    double startStops = 0.0, stopStops = 0.0; // factors are 2 to the power of these
+    int count = 0;
+};
+HdrExposures hdrFlipExposures(const ImageView& reference);
+FlipResult hdrFlip(const ImageView& reference, const ImageView& test,
+                   double pixelsPerDegree = kDefaultPixelsPerDegree);
+
 } // namespace kilolux::measure

@@ -1,7 +1,7 @@
 #version 460
 // Takes one of a pixel's own and its neighbours' reservoirs, traces a shadow ray to its point and shades by the BRDF
-// there (Bitterli et al. 2020, algorithms 4 to 6). Unbiased, the weight is by multiple importance sampling (section 4.3):
-// each pixel that was asked counts by what the point would give it, for which it is asked whether it sees the point.
+// there (Bitterli et al. 2020, algorithms 4 to 6). The weight is by multiple importance sampling (section 4.3): each
+// pixel that was asked counts by what the point would give it, and, unbiased, is asked whether it sees the point.
 // Without reuse it only traces and shades.
 #include "shared/features.h"
 #include "lib/count.glsl"
@@ -47,18 +47,18 @@ void main() {
     if (here.exists) {
         uint seed = hashCombine(pixelSeed(pixel, frame.frame, frame.seed), 0x9e0bu);
         uint asked = how.reuse != 0u ? how.neighbours + 1u : 1u;
-        bool unbiased = how.reuse != 0u && how.unbiased != 0u;
+        uint weights = how.reuse != 0u ? how.weights : REUSE_BY_COUNTS;
         float sum = 0.0, target = 0.0;
         float drawnBy = 0.0, drawnByAll = 0.0; // densities of the point: of who drew it, and of all, times counts
         uint from = 0u;
         vec3 emission = vec3(0.0), terms = vec3(0.0);
         uint rays = 0u;
         // First all reservoirs are offered, then the winner is held up to those who offered: the pixel itself, whose
-        // answer is the shadow ray, and, unbiased, the others.
+        // answer is the shadow ray, and the others where the weight asks for them.
         for (uint i = 0u; i < 2u * asked; ++i) {
             bool offering = i < asked;
             uint j = offering ? i : i - asked;
-            if (!offering && (target <= 0.0 || (j > 0u && !unbiased))) break;
+            if (!offering && (target <= 0.0 || (j > 0u && weights == REUSE_BY_COUNTS))) break;
             uvec2 place;
             if (!askedPixel(pixel, here, seed, j, place)) continue;
             LightReservoir offered = unpackLightReservoir(texelFetch(newReservoirs, ivec2(place), 0));
@@ -76,23 +76,25 @@ void main() {
                 emission = lit.emission;
                 terms = lit.terms;
             } else if (lit.target > 0.0) {
-                bool traced;
-                uint seen = tracePoint(there, chosen.slot, lit.point, traced);
+                bool traced = false;
+                uint seen = RAY_VISIBLE;
+                if (j == 0u || weights == REUSE_BY_RAYS) seen = tracePoint(there, chosen.slot, lit.point, traced);
                 rays += traced ? 1u : 0u;
-                float density = seen == RAY_VISIBLE ? lit.target : 0.0;
+                float density = seen == RAY_VISIBLE || weights != REUSE_BY_RAYS ? lit.target : 0.0;
                 drawnByAll += density * offered.count;
                 if (j == from) drawnBy = density;
                 if (j == 0u) result = seen;
             }
         }
-        float share = unbiased ? (drawnByAll > 0.0 ? drawnBy / drawnByAll : 0.0) : 1.0 / max(chosen.count, 1.0);
+        float share = 1.0 / max(chosen.count, 1.0);
+        if (weights != REUSE_BY_COUNTS) share = drawnByAll > 0.0 ? drawnBy / drawnByAll : 0.0;
         chosen.contribution = target > 0.0 ? sum / target * share : 0.0;
         if (result == RAY_VISIBLE) {
             vec3 f0 = specularF0(here.surface), light = emission * (frame.exposure * chosen.contribution);
             diffuse = light * terms.x;
             specular = light * (f0 * terms.y + vec3(terms.z));
             specular /= environmentBrdf(here.point.noV, here.surface.roughness, f0);
-        } else if (unbiased) {
+        } else if (weights == REUSE_BY_RAYS) {
             chosen.contribution = 0.0; // what a pixel hands on is what it sees
         }
         countAll(COUNTER_RAYS, rays);

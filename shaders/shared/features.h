@@ -41,6 +41,13 @@ const int CHOICE_LANES = 40;             // of a subgroup, for passes whose work
 const int CHOICE_COMPACT_RAYS = 42;      // trace_samples and shade_samples walk the list of compact_rays
 const int CHOICE_PIXEL_ROWS =
     43; // passes over images go row by row instead of tile by tile (lib/dispatch.glsl)
+const int CHOICE_DRAW_FROM = 44; // DRAW_FROM_*
+
+// Where resample_lights draws its candidates from.
+const int DRAW_FROM_CELL = 0;  // the lights of the pixel's cell, evenly
+const int DRAW_FROM_POWER = 1; // all lights, by power
+const int DRAW_FROM_TREE = 2;  // all lights, by a tree of them
+const int DRAW_FROM_BRDF = 3;  // what a direction drawn by the BRDF meets
 
 const int HALF_OFF = 0;
 const int HALF_CHECKERBOARD = 1;

@@ -2,6 +2,8 @@
 // files, and errors against them.
 #pragma once
 
+#include "renderer/bench/bench_math.h"
+#include "renderer/bench/reference.h"
 #include "renderer/measure/image_view.h"
 #include "renderer/renderer.h"
 
@@ -53,17 +55,12 @@ struct FrameTime {
 };
 FrameTime renderFrame(Renderer& renderer);
 
-double medianOf(std::vector<double> values);
-
 // --- References ------------------------------------------------------------------------------------------
 
-// Linear, not exposed. Two halves with their own random numbers: the product of both errors is free of the
-// reference's own noise, and their difference shows it.
-struct Reference {
-    FloatImage halves[2];
-    FloatImage mean;
-    double exposureEv100 = 0.0;
-};
+using bench::medianOf;
+using bench::Reference;
+using bench::SquaredError;
+
 // By the method of `shot` ('split' or 'true'), half of options.referenceFrames frames each; with jitter all
 // of them.
 Reference renderReference(const LoopOptions& options, const LoopScene& scene, const Shot& shot);
@@ -71,12 +68,6 @@ Reference renderReference(const LoopOptions& options, const LoopScene& scene, co
 measure::ImageView viewOf(const FloatImage& image);
 measure::ImageView viewOf(const Picture& picture);
 
-// Mean over pixels and channels.
-struct SquaredError {
-    double absolute = 0.0; // exposed light squared
-    double relative = 0.0; // over the square of the reference + 0.01, exposed
-    SquaredError& operator+=(const SquaredError& other);
-};
 SquaredError squaredError(const Reference& reference, const Picture& picture);
 
 // As the display shows it: exposed, Khronos PBR Neutral, sRGB in 0..1, of 8 bits.

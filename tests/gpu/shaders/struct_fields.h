@@ -28,8 +28,10 @@
     F(diffuseFrames) F(specularFrames) F(leastFrames) F(clipWidth) F(spatialRadiusPx) F(spatialThreshold) \
     F(antiAliasFrames) F(antiAliasClip) F(settleError)
 #define FIELDS_ResamplingConstants(F) \
-    F(candidates) F(byPower) F(reuse) F(mostHistory) F(neighbours) F(radiusPx) F(unbiased)
+    F(candidates) F(reuse) F(mostHistory) F(neighbours) F(radiusPx) F(weights)
 #define FIELDS_LightPower(F) F(keep) F(other) F(probability)
+#define FIELDS_LightTreeNode(F) \
+    F(leastWs) F(slot) F(mostWs) F(second) F(axisWs) F(intensity) F(cosSpread) F(cosEmission) F(reachM) F(distant)
 #define FIELDS_ViewConstants(F) F(low) F(high) F(denoised)
 #define FIELDS_ProbeRequest(F) F(renderedPx) F(shownPx) F(stochastic) F(lights)
 #define FIELDS_ProbeSurface(F) \

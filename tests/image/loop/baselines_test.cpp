@@ -39,21 +39,27 @@ TEST(Baselines, UnbiasedOnesHaveTheMeanOfTrueBiasedReuseLosesLight) {
     const Replicas reference = trueReference(scene);
     for (const Baseline& b : {Baseline{"uniform", {}},
                               {"power", {}},
+                              {"brdf", {}},
+                              {"hierarchy", {}},
                               {"resampling", {"resampleCandidates=8"}},
-                              {"resampling", {"resampleCandidates=8", "resampleFrom=power"}}}) {
+                              {"resampling", {"resampleCandidates=8", "resampleFrom=power"}},
+                              {"resampling", {"resampleCandidates=8", "resampleFrom=hierarchy"}}}) {
         Loop loop(scene, baselineOptions(b.method, b.settings));
         expectSameMean(gather(framesOf(loop)), reference, b.method);
     }
-    Loop loop(scene, baselineOptions("restir", {"resampleCandidates=8", "reuseUnbiased=true"}));
+    Loop loop(scene, baselineOptions("restir", {"resampleCandidates=8", "reuseWeights=rays", "reuseFrames=20",
+                                                "reuseRadius=30"}));
     expectSameMean(gather(framesAfterCut(loop, scene.cameras[0], 4)), reference, "restir, unbiased");
 
     // Biased reuse loses light at the borders of shadows.
-    Loop biased(scene, baselineOptions("restir", {"resampleCandidates=8"}));
-    const Replicas light = gather(framesAfterCut(biased, scene.cameras[0], 4), 0.005, 64);
-    const double ratio = light.mean(Light::Luminance).mean / reference.mean(Light::Luminance).mean;
-    std::printf("restir, biased: %+.2f %%\n", 100.0 * (ratio - 1.0));
-    EXPECT_LT(ratio, 0.99);
-    EXPECT_GT(ratio, 0.7);
+    for (const char* weights : {"reuseWeights=counts", "reuseWeights=targets"}) {
+        Loop biased(scene, baselineOptions("restir", {"resampleCandidates=8", weights, "reuseRadius=30"}));
+        const Replicas light = gather(framesAfterCut(biased, scene.cameras[0], 4), 0.005, 64);
+        const double ratio = light.mean(Light::Luminance).mean / reference.mean(Light::Luminance).mean;
+        std::printf("restir, %s: %+.2f %%\n", weights, 100.0 * (ratio - 1.0));
+        EXPECT_LT(ratio, 0.99) << weights;
+        EXPECT_GT(ratio, 0.7) << weights;
+    }
 }
 
 // As published: far less noise than the resampling that it builds on, from equally many candidates. The
@@ -73,8 +79,7 @@ TEST(Baselines, ReuseTakesNoiseAway) {
     const double plain = errorOf("resampling", {"resampleCandidates=8"});
     const double inTime = errorOf("restir", {"resampleCandidates=8", "reuseNeighbours=0"});
     const double both = errorOf("restir", {"resampleCandidates=8", "reuseRadius=8"});
-    const double unbiased =
-        errorOf("restir", {"resampleCandidates=8", "reuseRadius=8", "reuseUnbiased=true"});
+    const double unbiased = errorOf("restir", {"resampleCandidates=8", "reuseRadius=8", "reuseWeights=rays"});
     std::printf("squared relative error: resampling %.4f, in time %.4f, and space %.4f, unbiased %.4f\n",
                 plain, inTime, both, unbiased);
     EXPECT_LT(inTime, 0.5 * plain);

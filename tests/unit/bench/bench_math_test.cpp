@@ -65,10 +65,10 @@ TEST(BenchMath, MethodsAreParsedWithTheirSettings) {
     const Result<BenchMethod> plain = parseMethod("stochastic");
     ASSERT_TRUE(plain);
     EXPECT_EQ(plain.value().settings, Settings{});
-    const Result<BenchMethod> set = parseMethod("restir:reuseUnbiased=true:reuseNeighbours=3");
+    const Result<BenchMethod> set = parseMethod("restir:reuseWeights=rays:reuseNeighbours=3");
     ASSERT_TRUE(set);
     EXPECT_EQ(set.value().method, "restir");
-    EXPECT_TRUE(set.value().settings.reuseUnbiased);
+    EXPECT_EQ(set.value().settings.reuseWeights, ReuseWeights::Rays);
     EXPECT_EQ(set.value().settings.reuseNeighbours, 3);
     EXPECT_FALSE(parseMethod("lightcut"));
     EXPECT_FALSE(parseMethod("restir:reuse=1"));
@@ -81,12 +81,34 @@ BenchResult resultOf(const std::string& sceneName, double ms) {
     result.plan.methods = {methodOf("stochastic", 1.0, ms, 1.0).method,
                            methodOf("restir", 4.0, ms, 2.0).method};
     result.plan.width = result.plan.height = 2;
+    result.plan.budgetsMs = {4.0 * ms};
     SceneResult scene;
     scene.scene.file = sceneName;
     scene.budgetsMs = {4.0 * ms};
+    scene.width = scene.height = 2;
     scene.methods = {methodOf("stochastic", 1.0, ms, 1.0), methodOf("restir", 4.0, ms, 2.0)};
     result.scenes.push_back(scene);
     return result;
+}
+
+// Two scenes, of ratios 1/4 and 1/16: their geometric mean; repetitions agree, so that the interval is a
+// point.
+TEST(BenchMath, MeansOverScenes) {
+    BenchResult result = resultOf("a.glb", 10.0);
+    result.scenes.push_back(result.scenes[0]);
+    result.scenes[1].methods[1] = methodOf("restir", 16.0, 10.0, 2.0);
+    const std::vector<OverScenes> means = meansOverScenes(result, 1);
+    ASSERT_EQ(means.size(), 4u) << "one of time, three of rays";
+    EXPECT_EQ(means[0].scenes, 2u);
+    EXPECT_NEAR(means[0].firstOverOther.median, 1.0 / 8.0, 1e-9);
+    EXPECT_NEAR(means[0].firstOverOther.largest, 1.0 / 8.0, 1e-9);
+    EXPECT_EQ(means[1].scenes, 0u) << "no frame after one ray";
+    EXPECT_NEAR(means[2].firstOverOther.median, 1.0 / 16.0, 1e-9) << "twice the rays";
+    // A repetition that goes worse widens the interval, not the mean of medians.
+    for (BenchPoint& point : result.scenes[0].methods[1].filtered[2].points)
+        point.relativeMse *= 0.25;
+    EXPECT_NEAR(meansOverScenes(result, 1)[0].firstOverOther.median, 1.0 / 8.0, 1e-9);
+    EXPECT_NEAR(meansOverScenes(result, 1)[0].firstOverOther.largest, 1.0 / 4.0, 1e-9);
 }
 
 TEST(BenchReport, JsonHoldsWhatWasMeasured) {
@@ -110,7 +132,28 @@ TEST(BenchReport, PageIsSelfContainedAndEscapesNames) {
     for (const char* outside : {"http://", "https://", "src=\"/", "href="})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos);
-    EXPECT_NE(page.find("0.25 over 1 scenes"), std::string::npos) << "the first's error over the other's";
+    EXPECT_NE(page.find("<td>0.25 <small>0.25 to 0.25</small>, 1 scenes</td>"), std::string::npos)
+        << "the first's error over the other's";
+}
+
+TEST(BenchReport, PageShowsChangesStillFactsAndScaling) {
+    BenchResult result = resultOf("a.glb", 10.0);
+    result.plan.sweep = Sweep::Resolution;
+    result.scenes.push_back(result.scenes[0]);
+    result.scenes[1].width = 4;
+    MethodResult& method = result.scenes[0].methods[0];
+    method.still = StillFacts{0.125, 0.5, 0.75, 0.25, 0.0625};
+    method.changes = {{Change::LightsOn, {0.5, 0.95}, 2, 0.25, 0.125},
+                      {Change::CameraTurns, {}, {}, 0.25, 0.125}};
+    const std::string page = benchHtml(result);
+    for (const char* part :
+         {"<h2>Scaling</h2>", "0.1250</td><td>0.75</td><td>0.25</td><td>0.5000</td><td>0.0625",
+          "stochastic, lights-on</th><td>2</td><td>50 %</td><td>0.2500", "camera-turns"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    const nlohmann::ordered_json json = benchJson(result);
+    EXPECT_EQ(json.at("sweep"), "resolution");
+    EXPECT_EQ(json.at("scenes").at(0).at("methods").at(0).at("changes").at(0).at("lagFrames"), 2);
+    EXPECT_EQ(json.at("scenes").at(0).at("methods").at(0).at("still").at("correlationInTime"), 0.75);
 }
 
 TEST(BenchReport, OlderRunsAreComparedByTheirNumbers) {
