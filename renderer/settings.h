@@ -67,12 +67,12 @@ struct Settings {
     int missCandidates = 32;
     DimLights dimLights = DimLights::Roulette;
     double dimThreshold = 0.001;
-    int resampleCandidates = 32;
+    int resampleCandidates = 16;
     ResampleFrom resampleFrom = ResampleFrom::Cell;
     double reuseFrames = 4.0;
-    int reuseNeighbours = 5;
+    int reuseNeighbours = 3;
     double reuseRadius = 8.0;
-    ReuseWeights reuseWeights = ReuseWeights::Targets;
+    ReuseWeights reuseWeights = ReuseWeights::Counts;
     PictureChoice picture = PictureChoice::Viewport;
     double settleError = 0.5;
     bool denoise = true;

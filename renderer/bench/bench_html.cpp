@@ -255,10 +255,13 @@ std::string sceneSection(const SceneResult& scene, const BenchPlan& plan) {
            plot(scene, false) + stageTable(scene.methods.front()) + pictures(scene, plan);
 }
 
-std::string meanCell(const Interval& mean, std::size_t scenes) {
-    if (scenes == 0) return "<td>-</td>";
-    return fmt::format("<td>{:.2f} <small>{:.2f} to {:.2f}</small>, {} scenes</td>", mean.median, mean.least,
-                       mean.largest, scenes);
+std::string meanCell(const OverScenes& mean, std::size_t allScenes) {
+    if (mean.scenes == 0) return "<td>-</td>";
+    const Interval& i = mean.firstOverOther;
+    const std::string fewer =
+        mean.scenes < allScenes ? fmt::format("<br><small>{} scenes</small>", mean.scenes) : "";
+    return fmt::format("<td>{:.2f} <small>{:.2f} to {:.2f}</small>{}</td>", i.median, i.least, i.largest,
+                       fewer);
 }
 
 // Geometric means over the scenes of error(first) / error(other).
@@ -267,22 +270,28 @@ std::string summary(const BenchResult& result) {
     for (std::size_t i = 1; i < result.plan.methods.size(); ++i) {
         std::string row;
         for (const OverScenes& mean : meansOverScenes(result, i)) {
-            row += meanCell(mean.firstOverOther, mean.scenes);
+            row += meanCell(mean, result.scenes.size());
             if (i == 1) head += fmt::format("<th>{}</th>", escaped(mean.at));
         }
         rows += fmt::format("<tr><th>{}</th>{}</tr>\n", escaped(result.plan.methods[i].label), row);
     }
-    return fmt::format("<h2>All scenes</h2><table><tr><th>error of {} over that of</th>{}</tr>\n{}</table>\n",
-                       escaped(result.plan.methods.front().label), head, rows);
+    return fmt::format(
+        "<h2>All scenes</h2><p>Geometric means over {} scenes; below 1 {} has the smaller error.</p>\n"
+        "<table><tr><th>error of {} over that of</th>{}</tr>\n{}</table>\n",
+        result.scenes.size(), escaped(result.plan.methods.front().label),
+        escaped(result.plan.methods.front().label), head, rows);
 }
 
 constexpr const char* kStyle =
     "body{font:15px/1.5 system-ui,sans-serif;max-width:72rem;margin:2rem auto;padding:0 1rem;color:#222}"
-    "table{border-collapse:collapse;margin:1rem 0;font-variant-numeric:tabular-nums}"
-    "th,td{padding:.25rem .7rem;text-align:right;border-bottom:1px solid #ddd}th:first-child{text-align:left}"
+    "table{border-collapse:collapse;margin:1rem "
+    "0;font-variant-numeric:tabular-nums;display:block;overflow-x:auto}"
+    "th,td{padding:.25rem .7rem;text-align:right;border-bottom:1px solid #ddd;white-space:nowrap}"
+    "tr:first-child th{font-size:.8rem;white-space:normal;min-width:4rem;vertical-align:bottom}"
+    "th:first-child{text-align:left}"
     "small{color:#666}svg{max-width:100%;font-size:12px}.g{stroke:#ddd}"
     ".pictures{display:flex;flex-wrap:wrap;gap:1rem}figure{margin:0}img{max-width:100%;height:auto}"
-    "figcaption{color:#555}code{background:#f2f2f2;padding:.1rem .3rem}";
+    "figcaption{color:#555}code{background:#f2f2f2;padding:.1rem .3rem;overflow-wrap:anywhere}";
 
 } // namespace
 

@@ -109,7 +109,7 @@ std::vector<OverScenes> meansOverScenes(const BenchResult& result, std::size_t m
         constexpr std::array kFrames = {1, 4, 16};
         means.push_back(
             meanOf(result.plan.budgetsMs.empty()
-                       ? fmt::format("denoised, time of {} frames of the first", kFrames.at(budget))
+                       ? fmt::format("denoised, in {} times the first's time per frame", kFrames.at(budget))
                        : fmt::format("denoised, after {:g} ms", result.plan.budgetsMs[budget]),
                    ratios));
     }

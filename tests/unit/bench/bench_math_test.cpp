@@ -132,7 +132,7 @@ TEST(BenchReport, PageIsSelfContainedAndEscapesNames) {
     for (const char* outside : {"http://", "https://", "src=\"/", "href="})
         EXPECT_EQ(page.find(outside), std::string::npos) << outside;
     EXPECT_NE(page.find("data:image/png;base64,iVBOR"), std::string::npos);
-    EXPECT_NE(page.find("<td>0.25 <small>0.25 to 0.25</small>, 1 scenes</td>"), std::string::npos)
+    EXPECT_NE(page.find("<td>0.25 <small>0.25 to 0.25</small></td>"), std::string::npos)
         << "the first's error over the other's";
 }
 

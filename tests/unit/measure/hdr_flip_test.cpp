@@ -190,7 +190,7 @@ TEST(HdrFlip, TakesTheWorstExposureOfEachPixel) {
     // A difference in the dark and one in the bright: no single exposure shows both.
     std::vector<float> a(std::size_t(3 * 48 * 8), 0.05f);
     for (std::size_t i = 0; i < a.size(); ++i)
-        if (i / 3 % 48 >= 24) a[i] = 20.0f;
+        if (i / 3 % 48 >= 32) a[i] = 20.0f; // the median is dark
     std::vector<float> b = a;
     for (std::size_t i = 0; i < b.size(); ++i)
         b[i] *= 0.6f;
