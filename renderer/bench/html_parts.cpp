@@ -58,7 +58,7 @@ class LogPlot {
     }
 
   private:
-    static constexpr double kWidth = 640, kHeight = 320, kLeft = 60, kRight = 440, kTop = 24, kBottom = 284;
+    static constexpr double kWidth = 880, kHeight = 320, kLeft = 60, kRight = 440, kTop = 24, kBottom = 284;
 
     double place(int axis, double logValue) const {
         const double from = std::floor(low_[axis]), to = std::max(std::ceil(high_[axis]), from + 1.0);

@@ -107,13 +107,16 @@ TEST_F(BenchCommand, TellsHowChangesArriveAndKeepsReferences) {
 }
 
 TEST_F(BenchCommand, SweepsHaveAStepEach) {
-    const ProgramRun result = bench({"--methods", "stochastic", "--sweep", "resolution"});
+    const ProgramRun result = bench({"--methods", "stochastic", "--sweep", "triangles"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     const nlohmann::json scenes = report().at("scenes");
-    ASSERT_EQ(scenes.size(), 5u);
-    EXPECT_EQ(scenes.at(0).at("width"), 24);
-    EXPECT_EQ(scenes.at(4).at("width"), 96);
-    EXPECT_EQ(scenes.at(4).at("sweepFactor"), 4.0);
+    ASSERT_EQ(scenes.size(), 3u);
+    const auto triangles = [&](int step) {
+        return scenes.at(step).at("methods").at(0).at("statistics").at("triangles").get<int>();
+    };
+    EXPECT_EQ(triangles(1), 4 * triangles(0));
+    EXPECT_EQ(triangles(2), 16 * triangles(0));
+    EXPECT_EQ(scenes.at(2).at("sweepFactor"), 16.0);
 }
 
 // What was stopped keeps whole repetitions.
