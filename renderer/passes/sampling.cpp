@@ -121,6 +121,7 @@ VisibleListPass::VisibleListPass(gpu::PassResources& resources)
                      {"samples"},
                      {"rayResults"},
                      {"visibleLists"},
+                     {"DirectionalSlots"},
                      {"VisibleListsOut", Access::Write},
                      {"Counters", Access::ReadWrite}},
                     lightUses()})) {}
@@ -132,6 +133,7 @@ void VisibleListPass::record(FrameContext& frame) {
                           {"samples", frame.targets.samples},
                           {"rayResults", frame.targets.rayResults},
                           {"visibleLists", frame.lists->previous()},
+                          {"DirectionalSlots", frame.scene.directionalSlots()},
                           {"VisibleListsOut", frame.lists->current()},
                           {"Counters", frame.counters}},
                          frame.scene.lightBindings()}),

@@ -75,8 +75,9 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     bool missed = !before.onScreen || !sameDepth(foundM, before.depthM, cosView);
 
     uint first = listTexelByChance(before.uv, whiteNoise2(seed, 8u));
-    visibleCount = how.guiding != 0u && frame.historyValid != 0u ? texelFetch(visibleLists, int(first)).x : 0u;
-    visibleCount = min(visibleCount, LIST_CAPACITY);
+    bool guided = how.guiding != 0u && frame.historyValid != 0u;
+    uvec2 head = guided ? texelFetch(visibleLists, int(first)).xy : uvec2(0u, 0xffffffffu);
+    visibleCount = min(head.x, LIST_CAPACITY);
     visibleAt = first + 1u;
     gridded = frame.grid.enabled != 0u;
     GridCell cell = GridCell(0u, frame.lightCount, 0u);
@@ -93,9 +94,13 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     // All and edited ones of what the list says there was, and of what its lights and the fresh ones may give now.
     vec2 listed = vec2(0.0), likely = vec2(0.0);
     state.candidates = 0u;
-    for (uint sun = 0u;; ++sun) {
-        bool directional = (kDirectionalLights || kDome) && sun < how.directionalCount; // or the dome
+    float sunWeights = 0.0; // of those that the tile sees, which come first
+    for (uint turn = 0u;; ++turn) {
+        bool directional = (kDirectionalLights || kDome) && turn < 2u * how.directionalCount; // or the dome
         if (!directional && !nextLight(walk)) break;
+        bool unseen = directional && turn >= how.directionalCount;
+        uint sun = unseen ? turn - how.directionalCount : turn;
+        if (directional && isSeenDirectional(head, sun) == unseen) continue; // not its turn
         uint slot = directional ? directionalSlots[sun] : walk.slot;
         if (slot >= frame.lightCount) continue; // a foreign list
         LightHot light = loadOwnLightHot(slot);
@@ -112,6 +117,9 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         if ((kDirectionalLights || kDome) && !directional && lightIsGlobal(light)) continue;
         float unshadowed = lightWeight(light, receiver.point, albedo, f0);
         float weight = perceptualWeight(unshadowed, frame.exposure);
+        // A sun behind a wall would take half of all samples, and all of a dim sky's.
+        if (unseen) weight = min(weight, max(sunWeights * how.hiddenShare, how.hiddenRelaxedBelow));
+        if (directional && !unseen) sunWeights += weight;
         // What is nothing here may be something at a neighbour that takes this pixel's choice.
         if (atHalf && lightReaches(light, receiver.point.positionWs))
             weight = max(weight, max(how.dimThreshold, KX_LEAST_WEIGHT));

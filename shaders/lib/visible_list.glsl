@@ -21,6 +21,16 @@ VisibleEntry unpackEntry(uint word) {
                         word >> ENTRY_OLDER_SHIFT & 15u, word >> ENTRY_AGE_SHIFT & 15u);
 }
 
+// A list's first texel: x = length; y = entries that found no room, and above them for each of the first directional
+// lights 4 bits: how many frames more it counts as seen. Later ones always do.
+const uint HEAD_LOST_MASK = 0xffffu;
+const uint HEAD_SUNS_SHIFT = 16u;
+const uint HEAD_SUNS = 4u;
+
+bool isSeenDirectional(uvec2 head, uint sun) {
+    return sun >= HEAD_SUNS || (head.y >> (HEAD_SUNS_SHIFT + 4u * sun) & 15u) != 0u;
+}
+
 // First texel of a tile's list. Tiles outside are clamped: a pixel that comes from beyond the border still gets
 // the nearest list.
 uint listTexel(ivec2 tile, uvec2 tiles) {

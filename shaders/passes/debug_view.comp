@@ -131,7 +131,7 @@ vec3 showSampling(uvec2 pixel, out vec3 value) {
         return value;
     }
     uint texel = listTexel(ivec2(pixel / LIST_TILE_PX), frame.tiles);
-    uvec2 head = texelFetch(visibleLists, int(texel)).xy;
+    uvec2 head = texelFetch(visibleLists, int(texel)).xy & uvec2(0xffffffffu, HEAD_LOST_MASK);
     float ages = 0.0;
     for (uint i = 0u; i < min(head.x, LIST_CAPACITY); ++i)
         ages += float(unpackEntry(texelFetch(visibleLists, int(texel + 1u + i)).x).age);

@@ -20,6 +20,9 @@ layout(local_size_x_id = CHOICE_LANES) in;
 uniform usampler2DArray samples;
 uniform usampler2DArray rayResults;
 uniform usamplerBuffer visibleLists; // of the previous frame
+layout(scalar) readonly buffer DirectionalSlots {
+    uint directionalSlots[];
+};
 layout(scalar) writeonly buffer VisibleListsOut {
     uvec2 listsOut[];
 };
@@ -56,24 +59,47 @@ uvec2 carriedEntry(uvec2 texel) {
     return uvec2(packEntry(e), edited ? texel.y : texel.y - texel.y / 4u);
 }
 
-// What a sample adds: x = slot, y = energy << 4 | quarter. kNone for what was not seen.
-uvec2 seenSample(uvec2 pixel, uint layer) {
+// The bits of a directional light or the dome among those that a list's head knows.
+uint bitsOfSun(uint slot) {
+    uint bits = 0u;
+    for (uint i = 0u; i < min(frame.sampling.directionalCount, HEAD_SUNS); ++i)
+        bits |= directionalSlots[i] == slot ? 15u << 4u * i : 0u;
+    return bits;
+}
+
+// What is left of the frames for which the directional lights of a head count as seen.
+uint seenSuns(uint headY, uint seenNow) {
+    uint frames = 0u;
+    for (uint shift = 0u; shift < 4u * HEAD_SUNS; shift += 4u) {
+        uint before = headY >> (HEAD_SUNS_SHIFT + shift) & 15u;
+        bool now = (seenNow >> shift & 1u) != 0u;
+        frames |= (now ? clamp(frame.sampling.listMemory, 1u, 15u) : before - min(before, 1u)) << shift;
+    }
+    return frames;
+}
+
+// What a sample adds: x = slot, y = energy << 4 | quarter; kNone for what was not seen, or is directional, which adds to
+// `suns`.
+uvec2 seenSample(uvec2 pixel, uint layer, inout uint suns) {
     if (any(greaterThanEqual(pixel, frame.size))) return uvec2(kNone, 0u);
     uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
     if ((result & RAY_STATE_MASK) != RAY_VISIBLE) return uvec2(kNone, 0u);
     StoredSample s = unpackSample(texelFetch(samples, ivec3(pixel, layer), 0));
-    if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) return uvec2(kNone, 0u);
+    if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) {
+        suns |= bitsOfSun(s.slot);
+        return uvec2(kNone, 0u);
+    }
     uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
     return uvec2(s.slot, energy << 4u | 1u << (result >> RAY_QUARTER_SHIFT & 3u));
 }
 
 // Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
-uint mergeLayer(uvec2 tile, uint layer, uint from, uint count) {
+uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout uint suns) {
     uint lane = gl_LocalInvocationID.x;
     uint slots[kPixelsPerLane], energies[kPixelsPerLane], quartersOf[kPixelsPerLane];
     for (int i = 0; i < kPixelsPerLane; ++i) {
         uint at = uint(i * kLanes) + lane;
-        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer);
+        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, suns);
         slots[i] = seen.x;
         energies[i] = seen.y >> 4u;
         quartersOf[i] = seen.y & 15u;
@@ -131,7 +157,8 @@ void main() {
     uvec2 middle = min(tile * LIST_TILE_PX + LIST_TILE_PX / 2u, frame.size - 1u);
     Reprojection before = reproject(middle);
     uint first = listTexel(ivec2(before.uv * vec2(frame.previousSize) / float(LIST_TILE_PX)), frame.previousTiles);
-    uint stored = frame.historyValid != 0u ? min(texelFetch(visibleLists, int(first)).x, LIST_CAPACITY) : 0u;
+    uvec2 head = frame.historyValid != 0u ? texelFetch(visibleLists, int(first)).xy : uvec2(0u);
+    uint stored = min(head.x, LIST_CAPACITY), suns = 0u;
     for (uint i = lane; i < stored; i += uint(kLanes))
         entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy);
     subgroupMemoryBarrierShared();
@@ -146,7 +173,7 @@ void main() {
     subgroupBarrier();
     uint wanted = min(frame.sampling.listLength, LIST_CAPACITY), lost = 0u;
     for (uint layer = 0u; layer < frame.sampling.rays; ++layer) {
-        count = mergeLayer(tile, layer, from, count);
+        count = mergeLayer(tile, layer, from, count, suns);
         from = 1u - from;
         while (count > wanted) {
             if (lane == 0u) dropWeakest(from, count);
@@ -156,9 +183,10 @@ void main() {
         subgroupMemoryBarrierShared();
         subgroupBarrier();
     }
+    if (kDirectionalLights || kDome) suns = seenSuns(head.y, subgroupOr(suns));
     uint out0 = (tile.y * frame.tiles.x + tile.x) * LIST_TEXELS;
     if (lane == 0u) {
-        listsOut[out0] = uvec2(count, lost);
+        listsOut[out0] = uvec2(count, min(lost, HEAD_LOST_MASK) | suns << HEAD_SUNS_SHIFT);
         atomicAdd(counters[COUNTER_LIST_ENTRIES], count);
         if (lost > 0u) atomicAdd(counters[COUNTER_LIST_OVERFLOW], lost);
     }
