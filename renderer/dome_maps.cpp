@@ -1,8 +1,8 @@
 #include "renderer/dome_maps.h"
 
 #include "renderer/document/light_units.h"
+#include "renderer/document/made_once.h"
 #include "renderer/lights_cpp/lights_f64.h"
-#include "renderer/made_once.h"
 
 #include <algorithm>
 #include <atomic>

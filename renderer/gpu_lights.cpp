@@ -5,6 +5,7 @@
 #include "renderer/dome_maps.h"
 #include "renderer/light_shaping.h"
 #include "renderer/lights_cpp/lights_f64.h"
+#include "renderer/source_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,7 +176,7 @@ DerivedRange deriveRange(const LightDef& def, double exposureEv100) {
     // A middle grey surface (reflectance 0.18) shown as middle grey has luminance 0.18 / exposure.
     const double greyLux = glm::pi<double>() * kMiddleGrey / (0.18 * exposureFromEv100(exposureEv100));
     const double limitLux = kRangeShare * greyLux;
-    const double candela = luminanceOf(emittedColor(def)) * baseIntensity(def);
+    const double candela = luminanceOf(emittedColor(def) * pictureMean(def)) * baseIntensity(def);
     DerivedRange range;
     range.rangeM = std::max(std::sqrt(std::max(candela, 0.0) / limitLux) + extentM(def), 1e-3);
     range.lostLux = limitLux;
@@ -249,7 +250,7 @@ GpuLights makeGpuLights(const Scene& scene, const glm::dvec3& anchor, double exp
         cold.penumbraScale = float(def.penumbraScale);
         cold.rayEndBiasM = float(def.rayEndBiasM);
         cold.node = std::uint32_t(slot);
-        cold.fluxLm = float(fluxLumen(def) * luminanceOf(emittedColor(def)));
+        cold.fluxLm = float(fluxLumen(def) * luminanceOf(emittedColor(def) * pictureMean(def)));
         result.cold.push_back(cold);
     }
     if (domeShines(scene.dome)) {

@@ -317,6 +317,7 @@ void GpuScene::uploadLightPictures(const LightTables& tables) {
     };
     upload("iesProfiles", tables.profiles, lightPictures_.profiles, iesProfiles_);
     upload("functionImages", tables.functionImages, lightPictures_.functionImages, functionImages_);
+    sourcePictures_.update(device_, tables.pictures);
 }
 
 void GpuScene::uploadDome(const std::shared_ptr<const DomeMaps>& dome) {
@@ -439,6 +440,8 @@ void GpuScene::decideLightFeatures() {
         anyShaping([](const LightShaping& shaping) { return shaping.channels != CHANNELS_ALL; });
     features_[FEATURE_CHANNEL_SHADOWS] =
         anyShaping([](const LightShaping& shaping) { return shaping.shadowChannels != CHANNELS_ALL; });
+    features_[FEATURE_TEXTURED_LIGHTS] =
+        anyShaping([](const LightShaping& shaping) { return shaping.picture != 0u; });
     const bool fits = slots_.hot().size() <= LIGHT_UNIFORM_SLOTS &&
                       device_.limits().maxUniformBufferRange >= LIGHT_UNIFORM_SLOTS * sizeof(LightHot);
     features_[CHOICE_LIGHTS_IN_UNIFORM] = fits;
@@ -492,6 +495,7 @@ gpu::Bindings GpuScene::lightBindings() const {
         bindings.emplace_back("domeIrradiances", domeIrradiances_, gpu::SamplerKind::LinearRepeat);
         bindings.emplace_back("domeDistribution", domeDistribution_);
     }
+    append(bindings, sourcePictures_.bindings());
     if (features_.at(CHOICE_LIGHTS_IN_UNIFORM)) bindings.emplace_back("LightsHot", lightsHot_);
     return bindings;
 }

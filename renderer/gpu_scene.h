@@ -5,6 +5,7 @@
 #include "renderer/accel_gpu/gpu_ray_world.h"
 #include "renderer/document/scene.h"
 #include "renderer/gpu/pass.h"
+#include "renderer/gpu_pictures.h"
 #include "renderer/light_slots.h"
 #include "shaders/shared/geometry.h"
 
@@ -118,6 +119,7 @@ class GpuScene {
     gpu::Image domeRadiances_, domeIrradiances_;
     gpu::Buffer domeDistribution_;
     LightTables lightPictures_; // what these hold; without shapings
+    GpuPictures sourcePictures_;
 };
 
 } // namespace kilolux

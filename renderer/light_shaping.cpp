@@ -3,7 +3,8 @@
 
 #include "renderer/document/ies_profile.h"
 #include "renderer/document/light_units.h"
-#include "renderer/made_once.h"
+#include "renderer/document/made_once.h"
+#include "renderer/source_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -152,6 +153,19 @@ void addFunction(shared::LightShaping& shaping, LightTables& tables, const Light
         shaping.functionOriginWs = glm::vec3(glm::dvec3(worldFromNode[3]) - anchor);
 }
 
+void addPicture(shared::LightShaping& shaping, LightTables& tables, const LightDef& def) {
+    constexpr std::size_t kMostPictures = 256; // layers that every device has
+    const std::shared_ptr<const SourcePicture> picture = sourcePictureOf(def);
+    if (!picture) return;
+    const std::uint32_t layer = layerOf(tables.pictures, picture);
+    if (layer >= kMostPictures) {
+        tables.pictures.resize(kMostPictures);
+        return;
+    }
+    shaping.picture = layer + 1;
+    shaping.pictureMean = glm::vec3(picture->mean);
+}
+
 } // namespace
 
 LightProfile makeLightProfile(const IesProfile& profile) {
@@ -238,12 +252,11 @@ std::uint32_t addShaping(LightTables& tables, const LightDef& def, const glm::dm
     shaping.channels = limited;
     shaping.shadowChannels = def.channelsCast ? shared::CHANNELS_ALL : limited;
     if (def.type == LightType::Rect) addDoors(shaping, def);
-    const bool hasProfile = def.ies && def.iesUse != IesUse::None && def.type != LightType::Directional &&
-                            def.ies->maxCandela() > 0.0;
-    if (hasProfile) addProfile(shaping, tables, def);
+    if (usesProfile(def)) addProfile(shaping, tables, def);
     addFunction(shaping, tables, def, worldFromNode, anchor, timeS);
+    addPicture(shaping, tables, def);
     const bool any = shaping.doorDepthM != glm::vec4(0.0f) || shaping.profile != 0 ||
-                     shaping.functionKind != shared::LIGHT_FUNCTION_NONE || leavesOut;
+                     shaping.functionKind != shared::LIGHT_FUNCTION_NONE || shaping.picture != 0 || leavesOut;
     if (!any || tables.shapings.size() >= shared::LIGHT_MAX_SHAPINGS) return 0;
     tables.shapings.push_back(shaping);
     return std::uint32_t(tables.shapings.size());

@@ -1,5 +1,5 @@
 // What shapes a light beyond its hot record, from the document to LightTables: barn doors, photometric
-// profiles and light functions.
+// profiles, light functions and pictures.
 #pragma once
 
 #include "renderer/document/scene.h"

@@ -39,6 +39,7 @@ constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
     {shared::FEATURE_BACKGROUND, "Background", "no dome is seen behind the scene"},
     {shared::FEATURE_FILL, "Fill", "no plain ambient light"},
     {shared::FEATURE_CHANNEL_SHADOWS, "ChannelShadows", "every mesh casts every light's shadow"},
+    {shared::FEATURE_TEXTURED_LIGHTS, "TexturedLights", "no rectangle light has a picture"},
 }};
 
 double percentile(std::vector<double> values, double share) {

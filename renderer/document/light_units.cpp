@@ -1,6 +1,7 @@
 #include "renderer/document/light_units.h"
 
 #include "renderer/document/ies_profile.h"
+#include "renderer/document/made_once.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,9 +58,20 @@ double coneIntegral(const LightDef& def) {
     return rise * rise * rise * width / 3.0 + (1.0 - full);
 }
 
+// Of a profile, which has thousands of values, while lights ask every frame.
+struct ProfileTotals {
+    double maxCandela = 0.0, fluxLm = 0.0;
+};
+ProfileTotals totalsOf(const std::shared_ptr<const IesProfile>& profile) {
+    static MadeOnce<IesProfile, ProfileTotals> totals;
+    return *totals.get(profile, [](const IesProfile& made) {
+        return ProfileTotals{made.maxCandela(), made.fluxLm()};
+    });
+}
+
 // Flux per candela on the axis.
 double fluxPerCandela(const LightDef& def) {
-    if (isShapedByProfile(def)) return def.ies->fluxLm() / def.ies->maxCandela();
+    if (isShapedByProfile(def)) return totalsOf(def.ies).fluxLm / totalsOf(def.ies).maxCandela;
     switch (def.type) {
     case LightType::Directional:
         return 0.0;
@@ -129,13 +141,17 @@ double emitterAreaM2(const LightDef& def) {
     return 0.0;
 }
 
+bool usesProfile(const LightDef& def) {
+    return def.ies && def.iesUse != IesUse::None && def.type != LightType::Directional &&
+           totalsOf(def.ies).maxCandela > 0.0;
+}
+
 bool isShapedByProfile(const LightDef& def) {
-    return def.ies && def.iesUse == IesUse::Shape && def.type != LightType::Directional &&
-           def.ies->maxCandela() > 0.0;
+    return def.iesUse == IesUse::Shape && usesProfile(def);
 }
 
 double baseIntensity(const LightDef& def) {
-    if (isShapedByProfile(def) && def.iesIntensity) return def.ies->maxCandela() * def.iesMultiplier;
+    if (isShapedByProfile(def) && def.iesIntensity) return totalsOf(def.ies).maxCandela * def.iesMultiplier;
     if (!unitApplies(def, def.unit)) return 0.0;
     switch (def.unit) {
     case LightUnit::Lumen:

@@ -26,7 +26,8 @@ bool unitApplies(const LightDef& def, LightUnit unit);
 // The definition's intensity in candela; in lux for a directional light. 0 where its unit does not apply.
 double baseIntensity(const LightDef& def);
 
-// Whether a profile that could be read is the light's shape.
+// Whether the light has a profile that could be read and gives light, and whether that is its shape.
+bool usesProfile(const LightDef& def);
 bool isShapedByProfile(const LightDef& def);
 
 // The value that the definition's intensity has in another unit; 0 where that does not apply.

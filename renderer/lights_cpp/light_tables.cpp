@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
 namespace kilolux {
 
@@ -10,11 +11,11 @@ namespace {
 thread_local const LightTables* bound = nullptr;
 
 template<typename Fetch>
-double bilinear(const glm::dvec2& at, const Fetch& fetch) {
+auto bilinear(const glm::dvec2& at, const Fetch& fetch) {
     const glm::dvec2 low = glm::floor(at), share = at - low;
     const int x = int(low.x), y = int(low.y);
-    const double below = glm::mix(fetch(x, y), fetch(x + 1, y), share.x),
-                 above = glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), share.x);
+    const auto below = glm::mix(fetch(x, y), fetch(x + 1, y), share.x),
+               above = glm::mix(fetch(x, y + 1), fetch(x + 1, y + 1), share.x);
     return glm::mix(below, above, share.y);
 }
 } // namespace
@@ -53,6 +54,19 @@ glm::dvec3 DomeMaps::radianceAt(const glm::dvec2& uv, double level) const {
 glm::dvec3 DomeMaps::irradianceAt(const glm::dvec2& uv) const {
     const glm::dvec2 size(irradiance.width, irradiance.height);
     return irradiance.sample({uv.x + 0.5 / size.x, (uv.y * (size.y - 1.0) + 0.5) / size.y});
+}
+
+glm::dvec3 SourcePicture::lookup(const glm::dvec2& uv, double level) const {
+    const auto ofLevel = [&](std::size_t index) {
+        const Level& from = levels[std::min(index, levels.size() - 1)];
+        return bilinear(glm::clamp(uv, 0.0, 1.0) * double(from.sizePx) - 0.5, [&](int x, int y) {
+            const glm::ivec2 at = glm::clamp(glm::ivec2(x, y), 0, from.sizePx - 1);
+            return glm::dvec3(glm::unpackHalf4x16(from.texels[std::size_t(at.y * from.sizePx + at.x)]));
+        });
+    };
+    const double low = std::floor(std::max(level, 0.0));
+    const glm::dvec3 finer = ofLevel(std::size_t(low));
+    return level > low ? glm::mix(finer, ofLevel(std::size_t(low) + 1), level - low) : finer;
 }
 
 BindLightTables::BindLightTables(const LightTables& tables) : before_(bound) {

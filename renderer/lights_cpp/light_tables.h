@@ -42,11 +42,27 @@ struct DomeMaps {
     glm::dvec3 irradianceAt(const glm::dvec2& uv) const;             // uv of the direction
 };
 
+// The picture of a rectangle light as lights/picture.glsl reads it: a pyramid of RGBA halves, the top row
+// first, and the table that warps samples.
+struct SourcePicture {
+    struct Level {
+        int sizePx = 0;
+        std::vector<std::uint64_t> texels; // 4 halves
+    };
+    std::vector<Level> levels; // halved down to one texel
+    std::vector<float> warp;
+    glm::dvec3 mean{0.0};
+
+    // Linear over texels and levels as a sampler does it, but in double.
+    glm::dvec3 lookup(const glm::dvec2& uv, double level) const;
+};
+
 struct LightTables {
     std::vector<shared::LightShaping> shapings;
     std::vector<std::shared_ptr<const LightPicture>> profiles; // all of one size (lights/light_filter.glsl)
     std::vector<std::shared_ptr<const LightPicture>> functionImages; // all of one size
     std::shared_ptr<const DomeMaps> dome;                            // null without one
+    std::vector<std::shared_ptr<const SourcePicture>> pictures;
 };
 
 // Binds the tables while it lives; the ones bound before return after it. `tables` must live as long.

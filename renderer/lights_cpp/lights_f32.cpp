@@ -29,6 +29,13 @@ static float profileLookup(uint layer, vec2 uv) {
 static float functionImageLookup(uint layer, vec2 uv) {
     return float(boundLightTables().functionImages.at(layer)->repeated(dvec2(uv)));
 }
+static vec3 lightPictureLookup(uint layer, vec2 uv, float level) {
+    return vec3(boundLightTables().pictures.at(layer)->lookup(dvec2(uv), double(level)));
+}
+static float lightWarpLookup(uint index) {
+    const std::size_t floats = boundLightTables().pictures.at(0)->warp.size();
+    return boundLightTables().pictures.at(index / floats)->warp.at(index % floats);
+}
 
 static vec3 domeRadianceLookup(vec2 uv, float level) {
     return vec3(boundLightTables().dome->radianceAt(dvec2(uv), double(level)));

@@ -38,7 +38,9 @@ LightShaping fromF32(const shared::LightShaping& shaping) {
             .functionMap = vec4(shaping.functionMap),
             .functionOriginWs = vec3(shaping.functionOriginWs),
             .channels = shaping.channels,
-            .shadowChannels = shaping.shadowChannels};
+            .shadowChannels = shaping.shadowChannels,
+            .picture = shaping.picture,
+            .pictureMean = vec3(shaping.pictureMean)};
 }
 
 static vec4 ltcLookup0(vec2 uv) {
@@ -56,6 +58,13 @@ static double profileLookup(uint layer, vec2 uv) {
 }
 static double functionImageLookup(uint layer, vec2 uv) {
     return (boundLightTables().functionImages.at(layer)->repeated(uv));
+}
+static vec3 lightPictureLookup(uint layer, vec2 uv, double level) {
+    return vec3(boundLightTables().pictures.at(layer)->lookup(dvec2(uv), double(level)));
+}
+static double lightWarpLookup(uint index) {
+    const std::size_t floats = boundLightTables().pictures.at(0)->warp.size();
+    return boundLightTables().pictures.at(index / floats)->warp.at(index % floats);
 }
 
 static vec3 domeRadianceLookup(vec2 uv, double level) {

@@ -44,6 +44,8 @@ std::vector<PassUse> lightUses() {
             {"domeRadiances", Access::Read, Presence::Optional},
             {"domeIrradiances", Access::Read, Presence::Optional},
             {"domeDistribution", Access::Read, Presence::Optional},
+            {"lightPictures", Access::Read, Presence::Optional},
+            {"LightWarps", Access::Read, Presence::Optional},
             {"ltcParameters"},
             {"ltcScales"}};
 }

@@ -6,6 +6,7 @@
 #include "renderer/reference/oracle_quadrature.h"
 #include "renderer/reference/oracle_random.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -182,27 +183,42 @@ OraclePointResult evaluateDelta(const OracleLight& light, const OraclePoint& poi
     return result;
 }
 
-OraclePointResult assemble(const OraclePoint& point, const dvec3& radianceNit, const LobeIntegral& exact,
-                           const ShadowedIntegrals& shadowed) {
+// Integrals times the radiance that stands under them.
+struct LitIntegral {
+    dvec3 diffuse{0.0}, specularF0{0.0}, specularOne{0.0};
+};
+using LitReplicas = std::array<LitIntegral, kReplicas>;
+
+LitIntegral litBy(const dvec3& radianceNit, double diffuse, double specularF0, double specularOne) {
+    return {radianceNit * diffuse, radianceNit * specularF0, radianceNit * specularOne};
+}
+
+LitReplicas litBy(const dvec3& radianceNit, const ShadowedIntegrals& shadowed) {
+    LitReplicas lit;
+    for (std::size_t r = 0; r < kReplicas; ++r)
+        lit[r] = litBy(radianceNit, shadowed.diffuse[r], shadowed.specularF0[r], shadowed.specularOne[r]);
+    return lit;
+}
+
+OraclePointResult assemble(const OraclePoint& point, const LitIntegral& exact, const LitReplicas& shadowed) {
     const dvec3 albedo = diffuseAlbedoOf(point.material);
     const dvec3 f0 = f0Of(point.material);
     OraclePointResult result;
-    result.unshadowedIrradianceLux = radianceNit * exact.diffuse;
-    result.unshadowedDiffuseNit = result.unshadowedIrradianceLux * albedo / kPi;
-    result.unshadowedSpecularNit = radianceNit * (f0 * exact.specularF0 + dvec3(exact.specularOne));
+    result.unshadowedIrradianceLux = exact.diffuse;
+    result.unshadowedDiffuseNit = exact.diffuse * albedo / kPi;
+    result.unshadowedSpecularNit = exact.specularF0 * f0 + exact.specularOne;
     dvec3 totals[kReplicas];
-    double diffuse = 0.0;
     for (int r = 0; r < kReplicas; ++r) {
-        const dvec3 diffuseNit = radianceNit * shadowed.diffuse[r] * albedo / kPi;
-        const dvec3 specularNit =
-            radianceNit * (f0 * shadowed.specularF0[r] + dvec3(shadowed.specularOne[r]));
+        const LitIntegral& one = shadowed[std::size_t(r)];
+        const dvec3 diffuseNit = one.diffuse * albedo / kPi;
+        const dvec3 specularNit = one.specularF0 * f0 + one.specularOne;
         result.diffuseNit += diffuseNit / double(kReplicas);
         result.specularNit += specularNit / double(kReplicas);
-        diffuse += shadowed.diffuse[r] / kReplicas;
+        result.irradianceLux += one.diffuse / double(kReplicas);
         totals[r] = diffuseNit + specularNit;
     }
-    result.irradianceLux = radianceNit * diffuse;
-    result.visibility = exact.diffuse > 0.0 ? diffuse / exact.diffuse : 0.0;
+    const double all = luminanceOf(exact.diffuse);
+    result.visibility = all > 0.0 ? luminanceOf(result.irradianceLux) / all : 0.0;
     dvec3 squares(0.0);
     for (const dvec3& total : totals) {
         const dvec3 deviation = total - result.diffuseNit - result.specularNit;
@@ -210,6 +226,75 @@ OraclePointResult assemble(const OraclePoint& point, const dvec3& radianceNit, c
     }
     result.standardErrorNit = glm::sqrt(squares / (kReplicas * (kReplicas - 1.0)));
     return result;
+}
+
+void add(LitIntegral& sum, const dvec3& radianceNit, const LobeIntegral& value) {
+    sum.diffuse += radianceNit * value.diffuse;
+    sum.specularF0 += radianceNit * value.specularF0;
+    sum.specularOne += radianceNit * value.specularOne;
+}
+
+// Each of the sums over the plain integral of the same samples, times that integral's known value.
+LitIntegral ratios(const LitIntegral& sum, const LobeIntegral& plain, const LobeIntegral& exact) {
+    const auto over = [](const dvec3& s, double p, double e) { return p > 0.0 ? s * (e / p) : dvec3(0.0); };
+    return {over(sum.diffuse, plain.diffuse, exact.diffuse),
+            over(sum.specularF0, plain.specularF0, exact.specularF0),
+            over(sum.specularOne, plain.specularOne, exact.specularOne)};
+}
+
+// Mean visibility of points that are spread over the area and count by their luminance.
+double meanVisibility(const OracleLight& light, const OraclePoint& point, const Occlusion& occlusion,
+                      int samples, std::uint64_t seed) {
+    double all = 0.0, visible = 0.0;
+    for (int i = 0; i < samples; ++i) {
+        const glm::dvec2 uv = sobolPoint(i, seed);
+        const SourcePoint source = sampleSource(light, point.positionWs, uv.x, uv.y);
+        if (!source.faces || glm::dot(point.shadingNormalWs, source.directionWs) <= 0.0) continue;
+        const double share =
+            luminanceOf(pictureAt(light, point.positionWs + source.directionWs * source.distanceM));
+        all += share;
+        if (share > 0.0 && reaches(point, occlusion, light, source.directionWs, source.distanceM))
+            visible += share;
+    }
+    return all > 0.0 ? visible / all : 0.0;
+}
+
+// A rectangle with a picture, by samples that follow the plain integrand.
+OraclePointResult estimatePicture(const OracleLight& light, const OraclePoint& point,
+                                  const Occlusion& occlusion, Estimator estimator, LobeQuadrature& quadrature,
+                                  const LobeIntegral& exact, double shaping, int samples,
+                                  std::uint64_t seed) {
+    constexpr int kLeastSamples = 1024; // of a replica: what the picture's detail needs
+    const int count = std::max(samples / kReplicas, kLeastSamples);
+    quadrature.prepareSampling(luminanceOf(f0Of(point.material)));
+    LitIntegral unshadowed;
+    LitReplicas shadowed;
+    for (std::size_t r = 0; r < kReplicas; ++r) {
+        const std::uint64_t replicaSeed = seedOf({seed, r});
+        LobeIntegral plain;
+        LitIntegral all, visible;
+        for (int i = 0; i < count; ++i) {
+            const glm::dvec2 uv = sobolPoint(i, replicaSeed);
+            const LobeQuadrature::Sample sample = quadrature.draw(uv.x, uv.y);
+            const double distanceM = distanceTo(light, point.positionWs, sample.direction);
+            const dvec3 radianceNit = light.radianceNit * shaping *
+                                      pictureAt(light, point.positionWs + sample.direction * distanceM);
+            add(plain, sample.value, 1.0);
+            add(all, radianceNit, sample.value);
+            if (estimator == Estimator::True && reaches(point, occlusion, light, sample.direction, distanceM))
+                add(visible, radianceNit, sample.value);
+        }
+        const LitIntegral lit = ratios(all, plain, exact);
+        const double share = 1.0 / kReplicas;
+        unshadowed.diffuse += lit.diffuse * share;
+        unshadowed.specularF0 += lit.specularF0 * share;
+        unshadowed.specularOne += lit.specularOne * share;
+        shadowed[r] = ratios(visible, plain, exact);
+        if (estimator == Estimator::True) continue;
+        const double mean = meanVisibility(light, point, occlusion, count, replicaSeed);
+        shadowed[r] = {lit.diffuse * mean, lit.specularF0 * mean, lit.specularOne * mean};
+    }
+    return assemble(point, unshadowed, shadowed);
 }
 
 } // namespace
@@ -293,11 +378,15 @@ OraclePointResult estimateLight(const OracleLight& whole, const OraclePoint& poi
                               Lobe(point.shadingNormalWs, point.viewDirWs, point.material.roughness));
     LobeIntegral exact = quadrature.integral();
     exact.diffuse = diffuseIntegral(*region, point.shadingNormalWs);
+    if (light.picture)
+        return estimatePicture(light, point, occlusion, estimator, quadrature, exact, shaping, samples, seed);
     const int rounded = std::max(samples + kReplicas - 1, kReplicas) / kReplicas * kReplicas;
     const ShadowedIntegrals shadowed =
         estimator == Estimator::True ? estimateTrue(light, point, occlusion, quadrature, exact, rounded, seed)
                                      : estimateSplit(light, point, occlusion, exact, rounded, seed);
-    return assemble(point, light.radianceNit * shaping, exact, shadowed);
+    const dvec3 radianceNit = light.radianceNit * shaping;
+    return assemble(point, litBy(radianceNit, exact.diffuse, exact.specularF0, exact.specularOne),
+                    litBy(radianceNit, shadowed));
 }
 
 } // namespace kilolux::oracle

@@ -116,39 +116,58 @@ double smoothOpen(double edge, double at, double softness) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-double imageLuminance(const Image& image, double u, double v) {
-    const double x = u * image.width - 0.5, y = v * image.height - 0.5;
-    const auto texel = [&](int column, int row) {
-        const auto wrap = [](int i, int n) { return (i % n + n) % n; };
-        const std::size_t at = 4 * (std::size_t(wrap(row, image.height)) * std::size_t(image.width) +
-                                    std::size_t(wrap(column, image.width)));
-        glm::dvec3 rgb;
-        for (int c = 0; c < 3; ++c) {
-            if (image.rgba8.empty()) {
-                rgb[c] = double(image.rgbaF32[at + std::size_t(c)]);
-                continue;
-            }
-            const double s = image.rgba8[at + std::size_t(c)] / 255.0;
-            rgb[c] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+glm::dvec3 linearTexel(const Image& image, int column, int row) {
+    const std::size_t at = 4 * (std::size_t(row) * std::size_t(image.width) + std::size_t(column));
+    glm::dvec3 rgb;
+    for (int c = 0; c < 3; ++c) {
+        if (image.rgba8.empty()) {
+            rgb[c] = double(image.rgbaF32[at + std::size_t(c)]);
+            continue;
         }
-        return std::clamp(glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
-    };
+        const double s = image.rgba8[at + std::size_t(c)] / 255.0;
+        rgb[c] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    }
+    return rgb;
+}
+
+template<typename Texel>
+auto bilinear(const Image& image, double u, double v, const Texel& texel) {
+    const double x = u * image.width - 0.5, y = v * image.height - 0.5;
     const int left = int(std::floor(x)), top = int(std::floor(y));
-    const double a = glm::mix(texel(left, top), texel(left + 1, top), x - left);
-    const double b = glm::mix(texel(left, top + 1), texel(left + 1, top + 1), x - left);
+    const auto a = glm::mix(texel(left, top), texel(left + 1, top), x - left);
+    const auto b = glm::mix(texel(left, top + 1), texel(left + 1, top + 1), x - left);
     return glm::mix(a, b, y - top);
 }
 
-// At the time 0. Flickers are left out: their level at a time is the renderer's own.
-double functionFactor(const LightFunction& function, const glm::dvec2& plane) {
+double imageLuminance(const Image& image, double u, double v) {
+    return bilinear(image, u, v, [&](int column, int row) {
+        const auto wrap = [](int i, int n) { return (i % n + n) % n; };
+        const glm::dvec3 rgb = linearTexel(image, wrap(column, image.width), wrap(row, image.height));
+        return std::clamp(glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
+    });
+}
+
+// A flame's level: eight random values a second at speed 1, joined by smooth steps.
+double flicker(const LightFunction& function, double timeS) {
+    const double at = 8.0 * function.speed * timeS, before = std::floor(at), rest = at - before;
+    const auto level = [&](double step) {
+        const double noise = 43758.5453 * std::sin(12.9898 * step + 78.233 * function.seed);
+        return noise - std::floor(noise);
+    };
+    return glm::mix(level(before), level(before + 1.0), rest * rest * (3.0 - 2.0 * rest));
+}
+
+double functionFactor(const LightFunction& function, double timeS, const glm::dvec2& plane) {
     const double c = std::cos(function.angleRad), s = std::sin(function.angleRad);
     const glm::dvec2 at = glm::dvec2(plane.x * c + plane.y * s, plane.y * c - plane.x * s) / function.scale;
     const glm::dvec2 middle = glm::abs(at - glm::floor(at) - 0.5) * 2.0;
     double pattern = 1.0;
     switch (function.kind) {
     case LightFunctionKind::None:
-    case LightFunctionKind::Flicker:
         return 1.0;
+    case LightFunctionKind::Flicker:
+        pattern = flicker(function, timeS);
+        break;
     case LightFunctionKind::Image:
         if (!function.image) return 1.0;
         pattern = imageLuminance(*function.image, at.x + 0.5, 0.5 - at.y);
@@ -161,7 +180,8 @@ double functionFactor(const LightFunction& function, const glm::dvec2& plane) {
         pattern = smoothOpen(0.5, middle.y, function.softness);
         break;
     case LightFunctionKind::Caustics: {
-        const double x = 2.0 * kPi * at.x, y = 2.0 * kPi * at.y, phase = 2.4 * function.seed;
+        const double x = 2.0 * kPi * at.x, y = 2.0 * kPi * at.y,
+                     phase = 2.4 * function.seed + function.speed * timeS;
         const double bentX = 0.8 * std::sin(y + phase), bentY = 0.8 * std::sin(x - phase);
         const double waves =
             std::sin(x + bentX + phase) + std::sin(y + bentY - phase) + std::sin(x - y + bentX - bentY);
@@ -203,6 +223,9 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     case LightType::Rect:
         light.halfWidthM = 0.5 * def.widthM;
         light.halfHeightM = 0.5 * def.heightM;
+        light.picture = def.sourceImage;
+        light.pictureCenterWs = light.centerWs;
+        light.pictureHalfM = {light.halfWidthM, light.halfHeightM};
         light.flaps = {flapOf(def, BarnDoorSide::Left), flapOf(def, BarnDoorSide::Right),
                        flapOf(def, BarnDoorSide::Bottom), flapOf(def, BarnDoorSide::Top)};
         break;
@@ -241,14 +264,27 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     return light;
 }
 
+glm::dvec3 pictureAt(const OracleLight& light, const glm::dvec3& pointWs) {
+    if (!light.picture) return glm::dvec3(1.0);
+    const glm::dvec3 from = pointWs - light.pictureCenterWs;
+    const double u = 0.5 - 0.5 * glm::dot(from, light.xWs) / light.pictureHalfM.x,
+                 v = 0.5 - 0.5 * glm::dot(from, light.yWs) / light.pictureHalfM.y;
+    const Image& image = *light.picture;
+    return bilinear(image, u, v, [&](int column, int row) {
+        return linearTexel(image, std::clamp(column, 0, image.width - 1),
+                           std::clamp(row, 0, image.height - 1));
+    });
+}
+
 double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs) {
     const glm::dvec3 toReceiver = receiverWs - light.centerWs;
     const glm::dvec3 local(glm::dot(toReceiver, light.xWs), glm::dot(toReceiver, light.yWs),
                            -glm::dot(toReceiver, light.dirWs));
-    if (light.type == LightType::Directional) return functionFactor(light.function, glm::dvec2(local));
+    if (light.type == LightType::Directional)
+        return functionFactor(light.function, light.timeS, glm::dvec2(local));
     const double distanceM = glm::length(toReceiver);
-    double factor =
-        functionFactor(light.function, glm::dvec2(local) / std::max(std::abs(local.z), 1e-4 * distanceM));
+    double factor = functionFactor(light.function, light.timeS,
+                                   glm::dvec2(local) / std::max(std::abs(local.z), 1e-4 * distanceM));
     if (light.profile && distanceM > 0.0) factor *= profileFactor(light, local / distanceM);
     if (light.rangeM) factor *= std::max(1.0 - std::pow(distanceM / *light.rangeM, 4.0), 0.0);
     if (light.type == LightType::Spot && !light.profileIsShape && distanceM > 0.0) {

@@ -1,7 +1,7 @@
 // A light as the oracle sees it: placed in the world, in SI photometric units, derived from the document's
 // definition by the oracle's own arithmetic (no code of the renderer is used, so that an error there shows).
-// Lambert sources: every point of the surface has radiance `radianceNit`; shaping (range window, spot cone)
-// depends on the receiver and the light's centre only.
+// Lambert sources: every point of the surface has radiance `radianceNit`, times its picture; shaping (range
+// window, spot cone) depends on the receiver and the light's centre only.
 #pragma once
 
 #include "renderer/document/scene.h"
@@ -44,6 +44,10 @@ struct OracleLight {
     bool profileIsShape = false;
     double profileMultiplier = 0.0; // where the profile's candela stand in place of the light's intensity
     LightFunction function;
+    double timeS = 0.0;                   // of the light function
+    std::shared_ptr<const Image> picture; // rectangle; null without. It lies on the whole light:
+    glm::dvec3 pictureCenterWs{0.0};
+    glm::dvec2 pictureHalfM{0.0};
     std::uint8_t channels = 255;                // of the meshes that it reaches
     std::optional<std::uint8_t> shadowChannels; // of the meshes that cast its shadow; absent: all do
     glm::dvec3 intensityCd{0.0};                // local lights
@@ -57,6 +61,10 @@ struct OracleLight {
 // `rangeM` overrides the definition's range when present (derived ranges come from the caller).
 OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode,
                       std::optional<double> rangeM = {});
+
+// Of the picture on the light at a point of its plane, bilinear and clamped; 1 without. Seen from the front
+// its top is towards yWs and its left towards xWs.
+glm::dvec3 pictureAt(const OracleLight& light, const glm::dvec3& pointWs);
 
 // Window, cone, profile and light function towards a receiver: a factor on the whole light.
 double shapingAt(const OracleLight& light, const glm::dvec3& receiverWs);

@@ -17,6 +17,7 @@ layout(constant_id = FEATURE_BARN_DOORS) const bool kBarnDoors = true;
 layout(constant_id = FEATURE_IES_PROFILES) const bool kIesProfiles = true;
 layout(constant_id = FEATURE_LIGHT_FUNCTIONS) const bool kLightFunctions = true;
 layout(constant_id = FEATURE_LIGHT_CHANNELS) const bool kLightChannels = true;
+layout(constant_id = FEATURE_TEXTURED_LIGHTS) const bool kTexturedLights = true;
 layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = false;
 #define KX_HAS_DIRECTIONAL kDirectionalLights
 #define KX_HAS_SPHERE kSphereLights
@@ -29,6 +30,7 @@ layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = fal
 #define KX_HAS_IES kIesProfiles
 #define KX_HAS_LIGHT_FUNCTIONS kLightFunctions
 #define KX_HAS_LIGHT_CHANNELS kLightChannels
+#define KX_HAS_PICTURES kTexturedLights
 
 uniform sampler2D ltcParameters;
 uniform sampler2D ltcScales;
@@ -65,6 +67,16 @@ vec3 domeIrradianceLookup(vec2 uv) {
 }
 float domeDistributionLookup(uint place) {
     return texelFetch(domeDistribution, int(place)).x;
+}
+uniform sampler2DArray lightPictures;
+vec3 lightPictureLookup(uint layer, vec2 uv, float level) {
+    return textureLod(lightPictures, vec3(uv, float(layer)), level).xyz;
+}
+layout(scalar) readonly buffer LightWarps {
+    float lightWarps[];
+};
+float lightWarpLookup(uint index) {
+    return lightWarps[index];
 }
 #include "../lights/light.glsl"
 

@@ -1,9 +1,9 @@
 // One set of functions for every light type; each evaluation has a single call site, the type only chooses
 // what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place),
-// profileLookup and functionImageLookup (light_filter.glsl), what dome.glsl names, and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK, KX_HAS_DOME,
-// KX_HAS_BARN_DOORS,
-// KX_HAS_IES, KX_HAS_LIGHT_FUNCTIONS and KX_HAS_LIGHT_CHANNELS
-// as constant expressions that are false where the scene has no such light.
+// profileLookup and functionImageLookup (light_filter.glsl), lightPictureLookup and lightWarpLookup (picture.glsl), what
+// dome.glsl names, and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK,
+// KX_HAS_DOME, KX_HAS_BARN_DOORS, KX_HAS_IES, KX_HAS_LIGHT_FUNCTIONS, KX_HAS_LIGHT_CHANNELS and KX_HAS_PICTURES as
+// constant expressions that are false where the scene has no such light.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
 #define KILOLUX_LIGHTS_LIGHT_GLSL
 
@@ -19,11 +19,15 @@
 #ifndef KX_HAS_LIGHT_CHANNELS
 #define KX_HAS_LIGHT_CHANNELS true
 #endif
+#ifndef KX_HAS_PICTURES
+#define KX_HAS_PICTURES true
+#endif
 #include "directional.glsl"
 #include "disk.glsl"
 #include "dome.glsl"
 #include "irradiance.glsl"
 #include "light_filter.glsl"
+#include "picture.glsl"
 #include "rect.glsl"
 #include "shading_point.glsl"
 #include "sphere.glsl"
@@ -81,7 +85,7 @@ KX_INLINE LightBounds lightBounds(LightHot light) {
     return bounds;
 }
 
-// The light's shaped emission towards the receiver: radiance in nit, intensity in cd for points, illuminance
+// The light's shaped emission towards the receiver, without its picture: radiance in nit, intensity in cd for points, illuminance
 // in lux for a delta direction. 0 behind one-sided lights, out of range and for dead and muted ones.
 KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
     uint type = lightType(light);
@@ -107,7 +111,7 @@ KX_INLINE vec3 lightEvaluate(LightHot light, vec3 receiverWs) {
 // What a point of the light multiplies lightEvaluate() with: 1 but for lights that are not the same all over.
 KX_INLINE vec3 lightTint(LightHot light, LightSample s) {
     if (KX_HAS_DOME && lightType(light) == LIGHT_DOME) return domeTexel(domeLocal(light, s.dirWs), 0.0);
-    return vec3(1.0);
+    return s.tint;
 }
 
 // The silhouette from a receiver; `alpha` of its surface decides how finely it is drawn.
@@ -134,11 +138,18 @@ KX_INLINE LightIrradiance lightIrradiance(LightHot light, ShadingPoint point, Lt
         return none;
     }
     if (KX_HAS_DOME && lightType(light) == LIGHT_DOME) return domeIrradiance(light, point, lobe);
-    return outlineIrradiance(lightOutline(light, point.positionWs, point.alpha), point, lobe, emission);
+    EmitterOutline outline = lightOutline(light, point.positionWs, point.alpha);
+    LightIrradiance lit = outlineIrradiance(outline, point, lobe, emission);
+    if (lightHasPicture(light)) {
+        PictureColors colors = pictureColors(light, point);
+        lit.emission = emission * colors.diffuse;
+        lit.specularEmission = emission * colors.specular;
+    }
+    return lit;
 }
 
-// A point on the light for a uv in the unit square: even in area over what faces the receiver, continuous,
-// fixed to the light's frame up to the mirroring that each type states. Invalid for dead and muted lights,
+// A point on the light for a uv in the unit square: even in area over what faces the receiver (on a picture in its
+// luminance), continuous, fixed to the light's frame up to the mirroring that each type states. Invalid for dead and muted lights,
 // from behind and from inside.
 KX_INLINE LightSample lightSample(LightHot light, vec3 receiverWs, vec2 uv) {
     uint type = lightType(light);
@@ -184,6 +195,7 @@ KX_INLINE LightHit lightIntersect(LightHot light, vec3 originWs, vec3 dirWs) {
 // directional lights and the dome.
 KX_INLINE float lightFlux(LightHot light) {
     uint type = lightType(light);
+    if (lightHasPicture(light)) light.intensity = light.intensity * lightShaping(light).pictureMean;
     if (KX_HAS_IES && lightHasShaping(light) && lightShaping(light).profile != 0u)
         return luminance(light.intensity) * lightShaping(light).profileSr;
     float fluxLm = 0.0;

@@ -41,9 +41,10 @@ struct LightSample {
     vec2 uv;              // of the point in the light's own frame: what masks and lists store
     float pdfArea;        // 1/m^2 for uniform uv; directional: 1/sr; 0 for a point or a delta direction
     float pdfSolidAngle;  // 1/sr, 0 for a point or a delta direction
-    // Radiance estimate of one sample: brdf * cosine * lightEvaluate() * geometry. Sr for area lights (1 over
+    // Radiance estimate of one sample: brdf * cosine * lightEvaluate() * tint * geometry. Sr for area lights (1 over
     // pdfSolidAngle), 1/m^2 for points, 1 for delta directions; 0 when invalid.
     float geometry;
+    vec3 tint;  // of the light's picture at the point; 1 without
     bool valid; // the point emits towards the receiver; says nothing about the receiver's horizon
 };
 
@@ -56,12 +57,13 @@ struct LightHit {
     float pdfSolidAngle; // of lightSample() at this direction
 };
 
-// Unshadowed light at a shading point; multiply by `emission` for the coloured, photometric value.
+// Unshadowed light at a shading point; multiply by the emissions for the coloured, photometric values.
 struct LightIrradiance {
-    vec3 emission; // lightEvaluate(): nit, cd for points, lux for a delta direction
-    float diffuse; // times emission: irradiance in lux
-    vec3 specularEmission; // emission, but for lights that are not the same all over: what the lobe sees of it
-    vec2 specular; // times specularEmission: radiance towards the viewer = F0 * x + F90 * y
+    vec3 emission;         // lightEvaluate(), tinted by what the diffuse lobe sees of the light's picture: nit, cd for
+                           // points, lux for a delta direction
+    vec3 specularEmission; // the same for the specular lobe
+    float diffuse;         // times emission: irradiance in lux
+    vec2 specular;         // times specularEmission: radiance towards the viewer = F0 * x + F90 * y
 };
 
 // A light's silhouette from a receiver: one or two elliptic arcs whose vertices form a convex polygon,

@@ -145,6 +145,7 @@ KX_INLINE LightSample invalidSample(vec2 uv) {
     s.pdfArea = 0.0;
     s.pdfSolidAngle = 0.0;
     s.geometry = 0.0;
+    s.tint = vec3(1.0);
     s.valid = false;
     return s;
 }

@@ -7,6 +7,7 @@
 #include "../math/brdf.glsl"
 #include "barn_doors.glsl"
 #include "light_filter.glsl"
+#include "picture.glsl"
 
 // A light's extent: along `longWs` and `shortWs`, which are square to each other, and for a sphere or a tube
 // halfWidthM in every direction. Directional lights are at a distance of 1. Of a rectangle with barn doors it is the
@@ -212,6 +213,11 @@ KX_INLINE float lightWeight(LightHot light, ShadingPoint point, float diffuseAlb
                  max(d * d * mix(2.0 * facing * point.noV, facing + point.noV, wide), 1.0e-20);
     float specular = lobe * mix(f0, 1.0, square(awry * awry) * awry);
 
+    if (lightHasPicture(light)) {
+        vec2 tint = pictureWeights(light, point);
+        diffuse *= tint.x;
+        specular *= tint.y;
+    }
     return intensity * view.solidAngle * (diffuseAlbedo * KX_INV_PI * diffuse + specular);
 }
 

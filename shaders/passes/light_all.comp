@@ -54,7 +54,7 @@ void main() {
                 unshadowed = lightIrradiance(light, receiver.point, lobe);
                 if (unshadowed.diffuse <= 0.0 && unshadowed.specular.x + unshadowed.specular.y <= 0.0) continue;
             } else {
-                unshadowed.emission = lightEvaluate(light, positionWs);
+                unshadowed.emission = unshadowed.specularEmission = lightEvaluate(light, positionWs);
                 if (luminance(unshadowed.emission) <= 0.0) continue;
             }
             float sumVisible = 0.0;

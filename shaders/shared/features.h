@@ -25,7 +25,8 @@ const int FEATURE_CHANNEL_SHADOWS = 13; // and shines through it
 const int FEATURE_DOME = 14;            // there is light from all around
 const int FEATURE_BACKGROUND = 15;      // and it is seen behind the scene
 const int FEATURE_FILL = 16;            // there is plain ambient light
-const int FEATURE_COUNT = 17;
+const int FEATURE_TEXTURED_LIGHTS = 17; // some rectangle light has a picture
+const int FEATURE_COUNT = 18;
 
 // Choices of the frame that are specialization constants too, beyond the features.
 const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform block holds

@@ -55,6 +55,6 @@ KX_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(kilolux::shared::LightHot) == 64);
 static_assert(sizeof(kilolux::shared::LightCold) == 20);
-static_assert(sizeof(kilolux::shared::LightShaping) == 100);
+static_assert(sizeof(kilolux::shared::LightShaping) == 116);
 #endif
 #endif

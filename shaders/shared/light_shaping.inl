@@ -21,4 +21,7 @@ struct LightShaping {
     vec3 functionOriginWs; // directional: the pattern's origin, m, relative to the anchor
     uint channels;       // CHANNELS_LIMITED + those of the meshes that the light reaches, or CHANNELS_ALL
     uint shadowChannels; // the same of the meshes that cast its shadow
+    // rect: layer of the light's picture plus 1, 0 without; and the mean of that picture, linear Rec. 709.
+    uint picture;
+    vec3 pictureMean;
 };

@@ -60,7 +60,7 @@ TEST_P(Features, WhatIsAbsentCostsNothing) {
     gpu::SpecValues others;
     for (const int id :
          {shared::FEATURE_BARN_DOORS, shared::FEATURE_IES_PROFILES, shared::FEATURE_LIGHT_FUNCTIONS,
-          shared::FEATURE_LIGHT_CHANNELS, shared::FEATURE_DOME})
+          shared::FEATURE_LIGHT_CHANNELS, shared::FEATURE_DOME, shared::FEATURE_TEXTURED_LIGHTS})
         others[std::uint32_t(id)] = id == feature.id;
     gpu::SpecValues none = others;
     none[std::uint32_t(feature.id)] = 0;
@@ -88,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Feature{"profiles", shared::FEATURE_IES_PROFILES, "iesProfiles"},
                     Feature{"functions", shared::FEATURE_LIGHT_FUNCTIONS, "functionImages"},
                     Feature{"dome", shared::FEATURE_DOME, "domeDistribution"},
-                    Feature{"channels", shared::FEATURE_LIGHT_CHANNELS, "lightShapings"}));
+                    Feature{"channels", shared::FEATURE_LIGHT_CHANNELS, "lightShapings"},
+                    Feature{"pictures", shared::FEATURE_TEXTURED_LIGHTS, "lightPictures"}));
 
 TEST(TraceFeatures, ChannelShadowsCostNothingWhereNoLightHasThem) {
     const Result<gpu::ShaderCode> code = gpu::compileShader("passes/trace_samples.comp");

@@ -2,10 +2,12 @@
 // lights of every type at ordinary and at hard receivers, and the functions with only the needed features on.
 #include "tests/gpu/support/gpu_fixture.h"
 
+#include "renderer/gpu_pictures.h"
 #include "renderer/lights_cpp/light_tables.h"
 #include "renderer/lights_cpp/lights_f32.h"
 #include "renderer/lights_cpp/lights_f64.h"
 #include "renderer/lights_cpp/ltc_table.h"
+#include "renderer/source_picture.h"
 #include "shaders/shared/features.h"
 
 #include <algorithm>
@@ -28,7 +30,7 @@ struct LightTestCase {
     vec2 uv;
     std::uint32_t slot;
 };
-constexpr std::size_t kOutputs = 36;
+constexpr std::size_t kOutputs = 42;
 constexpr double kPi = 3.14159265358979323846;
 
 struct Part {
@@ -49,7 +51,9 @@ constexpr Part kParts[] = {{"evaluate", 0, 3},
                            {"sample geometry", 24, 1},
                            {"weight", 25, 1},
                            {"bounds", 26, 8},
-                           {"cold", 34, 1}};
+                           {"specular emission", 34, 3},
+                           {"sample tint", 37, 3},
+                           {"cold", 40, 1}};
 constexpr const char* kTypes[] = {"directional", "sphere", "spot", "tube", "rect", "disk"};
 constexpr int kFeatureOfType[] = {shared::FEATURE_DIRECTIONAL_LIGHTS, shared::FEATURE_SPHERE_LIGHTS,
                                   shared::FEATURE_SPOT_LIGHTS,        shared::FEATURE_TUBE_LIGHTS,
@@ -72,6 +76,18 @@ LightPicture smoothImage(int width, int height) {
         for (int x = 0; x < width; ++x)
             image.texels.push_back(
                 float(0.5 + 0.3 * std::sin(x * 2.0 * kPi / 24.0) * std::cos(y * 2.0 * kPi / 32.0)));
+    }
+    return image;
+}
+
+Image smoothColors(double phase) {
+    Image image{.name = "colours", .width = 64, .height = 48};
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            for (const double turn : {0.0, 2.1, 4.2, 0.0})
+                image.rgbaF32.push_back(
+                    float(0.55 + 0.4 * std::sin(0.1 * x + turn + phase) * std::cos(0.13 * y)));
+        }
     }
     return image;
 }
@@ -101,11 +117,17 @@ LightTables someShapings() {
             shaping.functionMap = {float(random.uniform(-3, 3)), float(random.uniform(-3, 3)),
                                    float(random.uniform(0.3, 1.0)), float(random.uniform(0.0, 0.9))};
         }
+        if (i % 5 < 2) {
+            shaping.picture = std::uint32_t(1 + i % 5);
+            shaping.pictureMean = vec3(0.5f);
+        }
         tables.shapings.push_back(shaping);
     }
     for (int i = 0; i < 2; ++i)
         tables.profiles.push_back(std::make_shared<const LightPicture>(smoothImage(145, 361)));
     tables.functionImages.push_back(std::make_shared<const LightPicture>(smoothImage(256, 256)));
+    tables.pictures.push_back(std::make_shared<const SourcePicture>(makeSourcePicture(smoothColors(0.0))));
+    tables.pictures.push_back(std::make_shared<const SourcePicture>(makeSourcePicture(smoothColors(1.5))));
     return tables;
 }
 
@@ -197,7 +219,10 @@ LightTestCase randomCase(Numbers& random, const shared::LightHot& light, std::ui
         put3(bounds.centerWs);                                                                               \
         put(bounds.radiusM);                                                                                 \
         put3(bounds.axisWs);                                                                                 \
-        put(bounds.cosHalfAngle, 0.25 * double((c).slot));                                                   \
+        put(bounds.cosHalfAngle);                                                                            \
+        put3(irradiance.specularEmission);                                                                   \
+        put3(s.tint);                                                                                        \
+        put(0.25 * double((c).slot));                                                                        \
         return row;                                                                                          \
     }()
 
@@ -229,21 +254,25 @@ class Lights : public GpuTest {
         input.upload(cases);
         const gpu::Image profiles = layersOf("iesProfiles", boundLightTables().profiles);
         const gpu::Image functions = layersOf("functionImages", boundLightTables().functionImages);
+        GpuPictures pictures;
+        pictures.update(device(), boundLightTables().pictures);
         const gpu::Image parameters = tableImage("ltcParameters", boundLtcTable().parameters);
         const gpu::Image scales = tableImage("ltcScales", boundLtcTable().scales);
         gpu::Commands commands(device());
-        pass_.record(commands, features,
-                     {{"LightsHot", hot},
-                      {"lightsHotTexels", hot},
-                      {"LightsCold", coldBuffer},
-                      {"LightShapings", shapings},
-                      {"iesProfiles", profiles, gpu::SamplerKind::LinearClamp},
-                      {"functionImages", functions, gpu::SamplerKind::LinearRepeat},
-                      {"ltcParameters", parameters, gpu::SamplerKind::LinearClamp},
-                      {"ltcScales", scales, gpu::SamplerKind::LinearClamp},
-                      {"Cases", input},
-                      {"Outputs", output}},
-                     std::uint32_t(cases.size()), {std::uint32_t(cases.size() + 63) / 64});
+        gpu::Bindings bindings{{"LightsHot", hot},
+                               {"lightsHotTexels", hot},
+                               {"LightsCold", coldBuffer},
+                               {"LightShapings", shapings},
+                               {"iesProfiles", profiles, gpu::SamplerKind::LinearClamp},
+                               {"functionImages", functions, gpu::SamplerKind::LinearRepeat},
+                               {"ltcParameters", parameters, gpu::SamplerKind::LinearClamp},
+                               {"ltcScales", scales, gpu::SamplerKind::LinearClamp},
+                               {"Cases", input},
+                               {"Outputs", output}};
+        for (const gpu::Binding& binding : pictures.bindings())
+            bindings.push_back(binding);
+        pass_.record(commands, features, bindings, std::uint32_t(cases.size()),
+                     {std::uint32_t(cases.size() + 63) / 64});
         commands.submitAndWait();
         return output.downloadAs<float>();
     }
@@ -285,6 +314,8 @@ class Lights : public GpuTest {
                             {"domeRadiances", gpu::Access::Read, gpu::Presence::Optional},
                             {"domeIrradiances", gpu::Access::Read, gpu::Presence::Optional},
                             {"domeDistribution", gpu::Access::Read, gpu::Presence::Optional},
+                            {"lightPictures"},
+                            {"LightWarps"},
                             {"ltcParameters"},
                             {"ltcScales"},
                             {"Cases"},
@@ -391,6 +422,7 @@ TEST_P(LightsByType, NeededFeaturesAreEnough) {
         needed[std::uint32_t(kFeatureOfType[type])] = type == GetParam();
     }
     needed[shared::FEATURE_BARN_DOORS] = GetParam() == shared::LIGHT_RECT;
+    needed[shared::FEATURE_TEXTURED_LIGHTS] = GetParam() == shared::LIGHT_RECT;
     const std::vector<float> exact = run(made.lights, made.cases, needed);
     int different = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -190,5 +190,39 @@ TEST(ClosedForm, DiskFormFactor) {
         2e-3); // a circle of 8 to 16 edges with the circle's area
 }
 
+// Four flaps of lengths of their own, straight ahead: each darkens its side of the floor from where its tip
+// hides the light's far edge. The light's -X (left), +X (right), +Y (top) and -Y (bottom) are -Z, +Z, +X and
+// -X here.
+TEST(ClosedForm, EachFlapDarkensItsOwnSide) {
+    constexpr double kEdgeM = 0.1, kHeightM = 1.0, kRadianceNit = 1000.0;
+    LightDef def = unwindowed(lightDef(LightType::Rect, kRadianceNit, LightUnit::Nit));
+    def.widthM = def.heightM = 2.0 * kEdgeM;
+    const double left = 0.25, right = 0.4, top = 0.2, bottom = 0.3;
+    def.barnDoors[std::size_t(BarnDoorSide::Left)] = {0.0, left};
+    def.barnDoors[std::size_t(BarnDoorSide::Right)] = {0.0, right};
+    def.barnDoors[std::size_t(BarnDoorSide::Top)] = {0.0, top};
+    def.barnDoors[std::size_t(BarnDoorSide::Bottom)] = {0.0, bottom};
+    // How far the source is seen towards one side from `besideM` on it.
+    const auto seenTo = [&](double lengthM, double besideM) {
+        const double at = (kEdgeM - besideM * lengthM / kHeightM) / (1.0 - lengthM / kHeightM);
+        return std::clamp(at, -kEdgeM, kEdgeM);
+    };
+    expectLux(
+        def, lookingAlong({0, kHeightM, 0}, {0, -1, 0}),
+        [&](const dvec3& p) {
+            const dvec3 low(-seenTo(bottom, -p.x), kHeightM, -seenTo(left, -p.z)),
+                high(seenTo(top, p.x), kHeightM, seenTo(right, p.z));
+            constexpr int kSteps = 12;
+            double lux = 0.0;
+            for (int i = 0; i < kSteps * kSteps; ++i) {
+                const dvec3 share((i % kSteps + 0.5) / kSteps, 0.0, (i / kSteps + 0.5) / kSteps);
+                const dvec3 to = glm::mix(low, high, share) - p;
+                lux += kRadianceNit * kHeightM * kHeightM / std::pow(glm::dot(to, to), 2.0);
+            }
+            return lux * std::max(high.x - low.x, 0.0) * std::max(high.z - low.z, 0.0) / (kSteps * kSteps);
+        },
+        2e-3);
+}
+
 } // namespace
 } // namespace kilolux::test

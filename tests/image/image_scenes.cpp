@@ -1,5 +1,6 @@
 #include "tests/image/image_scenes.h"
 
+#include "renderer/document/ies_profile.h"
 #include "tests/unit/accel/scene_kit.h"
 
 namespace kilolux::test {
@@ -59,6 +60,54 @@ void PrintTo(const LightCase& light, std::ostream* out) {
 const std::vector<LightCase>& lightCases() {
     static const std::vector<LightCase> cases = makeLightCases();
     return cases;
+}
+
+std::vector<LightCase> shapedLights() {
+    auto profile = std::make_shared<IesProfile>();
+    profile->horizontalDeg = {0.0, 90.0, 180.0};
+    for (int i = 0; i <= 16; ++i)
+        profile->verticalDeg.push_back(5.0 * i);
+    for (int row = 0; row < 3; ++row) {
+        for (int i = 0; i <= 16; ++i)
+            profile->candela.push_back((16 - i) * (8.0 + 4.0 * row) * (1.0 + 0.5 * std::cos(i)));
+    }
+    std::vector<LightCase> lights{lightCases()[0], lightCases()[2], lightCases()[4], lightCases()[3],
+                                  lightCases()[5]};
+    lights[0].def.barnDoors = {{{0.3, 0.5}, {0.9, 0.4}, {0.2, 0.6}, {1.2, 0.3}}};
+    lights[0].def.penumbraScale = 0.5;
+    for (std::size_t i = 1; i < 4; ++i) {
+        lights[i].def.ies = profile;
+        lights[i].def.iesUse = i == 2 ? IesUse::Mask : IesUse::Shape;
+        lights[i].def.iesMultiplier = 4.0;
+        lights[i].worldFromLight = lookingAlong({1.5 - double(i), 2.2, 0.2 * double(i)}, {0.1, -1.0, 0.2});
+    }
+    lights[2].def.function = {
+        .kind = LightFunctionKind::Grid, .scale = 0.3, .angleRad = 0.4, .softness = 0.5};
+    lights[4].def.function = {
+        .kind = LightFunctionKind::Blinds, .scale = 0.7, .softness = 0.6, .strength = 0.8};
+    return lights;
+}
+
+std::vector<LightCase> pictureLights() {
+    const std::shared_ptr<const Image> picture = makeImage([](int x, int y) {
+        const glm::dvec4 colors[] = {
+            {1, 0.1, 0.05, 1}, {0.1, 1, 0.2, 1}, {0.05, 0.2, 1, 1}, {0.02, 0.02, 0.02, 1}};
+        return colors[(x < 128 ? 0 : 1) + (y < 128 ? 0 : 2)];
+    });
+    std::vector<LightCase> lights{lightCases()[0], lightCases()[0]};
+    for (LightCase& light : lights) {
+        light.def.color = {1.0, 0.9, 0.8};
+        light.def.sourceImage = picture;
+        light.def.rangeM = 12.0;
+    }
+    lights[0].name = "picture";
+    lights[0].def.heightM = 1.0;
+    lights[0].worldFromLight = lookingAlong({-1.2, 1.5, 0.6}, {0.4, -1.0, -0.3});
+    lights[1].name = "pictureBetweenDoors";
+    lights[1].worldFromLight = lookingAlong({1.3, 2.2, 0.2}, {-0.2, -1.0, 0.1});
+    lights[1].def.barnDoors = {{{0.3, 0.5}, {0.9, 0.4}, {0.2, 0.6}, {1.2, 0.3}}};
+    lights[1].def.function = {.kind = LightFunctionKind::Grid, .scale = 0.4, .softness = 0.5};
+    return lights;
 }
 
 glm::dmat4 floorAt(const dvec3& position) {

@@ -27,6 +27,12 @@ void PrintTo(const LightCase& light, std::ostream* out);
 // One of each type, and the ones without extent: point, spot without radius, sun without diameter.
 const std::vector<LightCase>& lightCases();
 
+// Doors, with shadows of half the source; profiles as shape and mask; light functions.
+std::vector<LightCase> shapedLights();
+
+// Rectangles with a picture of four colours: low over the stage, and higher between doors behind a mask.
+std::vector<LightCase> pictureLights();
+
 // The stage lit by the given lights. Its camera is scene.cameras[0].
 Scene stageScene(const std::vector<LightCase>& lights);
 

@@ -22,7 +22,7 @@ layout(scalar) writeonly buffer Outputs {
     float outputs[];
 };
 
-const uint kLightTestOutputs = 36u; // as in lights_test.cpp
+const uint kLightTestOutputs = 42u; // as in lights_test.cpp
 uint next;
 
 void put(float x) { outputs[next++] = x; }
@@ -56,5 +56,7 @@ void main() {
     put(bounds.radiusM);
     put(bounds.axisWs);
     put(bounds.cosHalfAngle);
+    put(irradiance.specularEmission);
+    put(s.tint);
     put(loadLightCold(c.slot).rayEndBiasM);
 }

@@ -12,7 +12,7 @@
 #define FIELDS_LightShaping(F) \
     F(doorReachM) F(doorDepthM) F(profile) F(profileIsShape) F(profileCosine) F(profileSide) F(profileSr) \
     F(functionKind) F(functionImage) F(functionPhase) F(functionMap) F(functionOriginWs) \
-    F(channels) F(shadowChannels)
+    F(channels) F(shadowChannels) F(picture) F(pictureMean)
 #define FIELDS_FrameConstants(F) \
     F(clipFromWorld) F(originBase) F(originStepX) F(originStepY) F(dirBase) F(dirStepX) F(dirStepY) \
     F(size) F(outputSize) F(tiles) F(tileChunks) F(frame) F(seed) F(lightCount) F(exposure) F(pixelAngleRad) F(zNearM) \

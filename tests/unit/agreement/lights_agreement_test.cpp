@@ -32,7 +32,7 @@ class Random {
     std::mt19937 engine_{7};
 };
 
-enum class Shaped { No, BarnDoors, ProfileShape, ProfileMask, Image, Grid, Blinds, Caustics };
+enum class Shaped { No, BarnDoors, ProfileShape, ProfileMask, Image, Grid, Blinds, Caustics, Flicker };
 
 struct Kind {
     LightType type;
@@ -81,17 +81,19 @@ void addProfileOrFunction(LightDef& def, Random& random, Shaped shaped) {
         def.iesMultiplier = random.between(0.1, 3.0);
         return;
     }
-    def.function = {.kind = shaped == Shaped::Image    ? LightFunctionKind::Image
-                            : shaped == Shaped::Grid   ? LightFunctionKind::Grid
-                            : shaped == Shaped::Blinds ? LightFunctionKind::Blinds
-                                                       : LightFunctionKind::Caustics,
+    def.function = {.kind = shaped == Shaped::Image     ? LightFunctionKind::Image
+                            : shaped == Shaped::Grid    ? LightFunctionKind::Grid
+                            : shaped == Shaped::Blinds  ? LightFunctionKind::Blinds
+                            : shaped == Shaped::Flicker ? LightFunctionKind::Flicker
+                                                        : LightFunctionKind::Caustics,
                     .imageUri = {},
                     .image = picture,
                     .scale = random.between(0.1, 2.0),
                     .angleRad = random.between(-3.0, 3.0),
                     .softness = random.between(0.1, 1.0),
                     .strength = random.between(0.0, 1.0),
-                    .seed = random.between(0.0, 2.0)};
+                    .seed = random.between(0.0, 2.0),
+                    .speed = random.between(0.2, 2.0)};
 }
 
 LightDef randomDef(Random& random, const Kind& kind) {
@@ -139,7 +141,8 @@ Difference compare(Random& random, const Kind& kind) {
     scene.nodes = {node};
     scene.lights = {{0, 0, false}};
     if (!scene.lightDefs[0].rangeM) scene.lightDefs[0].rangeM = 1e6; // else the renderer derives one
-    const GpuLights records = makeGpuLights(scene, dvec3(0.0), 0.0);
+    const double timeS = random.between(0.0, 20.0);
+    const GpuLights records = makeGpuLights(scene, dvec3(0.0), 0.0, timeS);
     const BindLightTables bound(records.tables);
 
     oracle::OraclePoint point;
@@ -152,7 +155,8 @@ Difference compare(Random& random, const Kind& kind) {
     point.geometricNormalWs = point.shadingNormalWs;
     point.material = {dvec3(1.0), 0.0, random.between(0.1, 1.0)};
 
-    const oracle::OracleLight light = oracle::makeLight(scene.lightDefs[0], node.worldFromNode);
+    oracle::OracleLight light = oracle::makeLight(scene.lightDefs[0], node.worldFromNode);
+    light.timeS = timeS;
     const auto truth = oracle::estimateLight(light, point, {}, oracle::Estimator::Split, 8, 1);
     const f64::LightHot hot = f64::fromF32(records.hot[0]);
     const auto at = f64::makeShadingPoint(point.positionWs, point.shadingNormalWs, point.viewDirWs,
@@ -206,7 +210,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{LightType::Rect, Shaped::ProfileShape}, Kind{LightType::Disk, Shaped::ProfileMask},
                     Kind{LightType::Tube, Shaped::ProfileShape}, Kind{LightType::Tube, Shaped::ProfileMask},
                     Kind{LightType::Spot, Shaped::Image}, Kind{LightType::Rect, Shaped::Grid},
-                    Kind{LightType::Directional, Shaped::Blinds}, Kind{LightType::Sphere, Shaped::Caustics}));
+                    Kind{LightType::Directional, Shaped::Blinds}, Kind{LightType::Sphere, Shaped::Caustics},
+                    Kind{LightType::Tube, Shaped::Flicker}));
 
 } // namespace
 } // namespace kilolux

@@ -1,4 +1,4 @@
-// What is made from an object of the document, kept as long as that lives.
+// What is derived from an object of the document and is made once, however many lights use it.
 #pragma once
 
 #include <map>
@@ -7,6 +7,7 @@
 
 namespace kilolux {
 
+// By the document's object that it was made from, as long as that lives.
 template<typename Source, typename Made>
 class MadeOnce {
   public:
