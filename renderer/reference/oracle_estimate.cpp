@@ -208,6 +208,7 @@ OraclePointResult assemble(const OraclePoint& point, const LitIntegral& exact, c
     result.unshadowedDiffuseNit = exact.diffuse * albedo / kPi;
     result.unshadowedSpecularNit = exact.specularF0 * f0 + exact.specularOne;
     dvec3 totals[kReplicas];
+    const double all = luminanceOf(exact.diffuse);
     for (int r = 0; r < kReplicas; ++r) {
         const LitIntegral& one = shadowed[std::size_t(r)];
         const dvec3 diffuseNit = one.diffuse * albedo / kPi;
@@ -215,10 +216,9 @@ OraclePointResult assemble(const OraclePoint& point, const LitIntegral& exact, c
         result.diffuseNit += diffuseNit / double(kReplicas);
         result.specularNit += specularNit / double(kReplicas);
         result.irradianceLux += one.diffuse / double(kReplicas);
+        if (all > 0.0) result.visibility += luminanceOf(one.diffuse) / all / kReplicas; // 1 where all is seen
         totals[r] = diffuseNit + specularNit;
     }
-    const double all = luminanceOf(exact.diffuse);
-    result.visibility = all > 0.0 ? luminanceOf(result.irradianceLux) / all : 0.0;
     dvec3 squares(0.0);
     for (const dvec3& total : totals) {
         const dvec3 deviation = total - result.diffuseNit - result.specularNit;
