@@ -1,8 +1,7 @@
 // The G-buffer's packing. Images: gSurface (RGBA32UI: linear depth in metres, DEPTH_SKY without a surface; shading
 // normal, octahedral 2 x 16; geometric normal, octahedral 2 x 14, and the class of roughness; base colour): what filters
-// ask of a neighbour comes in one fetch. gMaterial (R32UI: roughness in 16 bits, metallic share
-// and lighting channels in 8), gDepth (R32F: the depth once
-// more, where only that is read), gEmissive (RGBA16F, exposed), visibility (RG32UI: instance, primitive).
+// ask of a neighbour comes in one fetch. gMaterial (R32UI: roughness and metallic share in 12 bits, lighting channels in 8),
+// gDepth (R32F: the depth once more, where only that is read), gEmissive (RGBA16F, exposed), visibility (RG32UI: instance, primitive).
 #ifndef KILOLUX_LIB_GBUFFER_GLSL
 #define KILOLUX_LIB_GBUFFER_GLSL
 #include "../math/pack.glsl"
@@ -48,8 +47,8 @@ uvec4 packSurface(float depthM, Surface s) {
 }
 
 uint packMaterial(Surface s, uint channels) {
-    uvec2 rest = uvec2(clamp(vec2(s.roughness, s.metallic), 0.0, 1.0) * vec2(65535.0, 255.0) + 0.5);
-    return rest.x | rest.y << 16u | channels << 24u;
+    uvec2 rest = uvec2(clamp(vec2(s.roughness, s.metallic), 0.0, 1.0) * 4095.0 + 0.5);
+    return rest.x | rest.y << 12u | channels << 24u;
 }
 
 uint materialChannels(uint material) {
@@ -81,7 +80,7 @@ float surfaceRoughnessClass(uvec4 texel) {
 Surface unpackSurface(uvec4 texel, uint material) {
     vec3 root = vec3(texel.w & 2047u, texel.w >> 11u & 2047u, texel.w >> 22u) *
                 vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 1023.0);
-    vec2 rest = vec2(material & 65535u, material >> 16u & 255u) * vec2(1.0 / 65535.0, 1.0 / 255.0);
+    vec2 rest = vec2(material & 4095u, material >> 12u & 4095u) * (1.0 / 4095.0);
     return Surface(surfaceNormalWs(texel), surfaceGeoNormalWs(texel), root * root, rest.x, rest.y);
 }
 

@@ -82,8 +82,8 @@ PixelSurface FrameTargets::surface(std::size_t pixel) const {
     const glm::dvec3 root((color & 2047u) / 2047.0, (color >> 11 & 2047u) / 2047.0, (color >> 22) / 1023.0);
     s.baseColor = root * root;
     const std::uint32_t rest = word<std::uint32_t>("gMaterial", pixel);
-    s.roughness = (rest & 0xffffu) / 65535.0;
-    s.metallic = (rest >> 16 & 255u) / 255.0;
+    s.roughness = (rest & 4095u) / 4095.0;
+    s.metallic = (rest >> 12 & 4095u) / 4095.0;
     return s;
 }
 
