@@ -172,9 +172,22 @@ class Opening(WindowCase):
 
     def test_the_preparation_of_a_picture_is_cancelled(self):
         path = self.copy_scene("night_market.glb")
-        window = self.start(path)
-        window.click("activity.close")
-        window.wait(lambda s: s["document"] is None, "the scene to be closed")
+        # With warm caches the preparation may end before the click comes: then it is begun anew.
+        def prepared(s):
+            return s["document"] and s["picture"] and s["picture"]["number"] > 0
+        for _ in range(20):
+            window = self.start(path)
+            state = window.wait(lambda s: "activity.close" in s["places"] or prepared(s), "the preparation")
+            frames = state["frames"] + 2  # a window's first frame has its sizes still to find
+            state = window.wait(lambda s: s["frames"] >= frames or prepared(s), "the sizes")
+            if "activity.close" in state["places"]:
+                x, y, width, height = state["places"]["activity.close"]
+                window.click((x + width / 2, y + height / 2))
+                state = window.wait(lambda s: s["document"] is None or prepared(s), "the scene to be closed")
+                if state["document"] is None:
+                    break
+            window.kill()
+        self.assertIsNone(state["document"])
         window.wait(lambda s: s["activity"] == "", "the preparation to end")
         window.click("first.open")
         window.wait(lambda s: s["question"] == "open", "the folder list")
