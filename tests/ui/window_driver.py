@@ -17,6 +17,7 @@ import time
 import zlib
 
 LEFT, MIDDLE, RIGHT, WHEEL_UP, WHEEL_DOWN = 1, 2, 3, 4, 5
+FRAMES_PER_EVENT = 3  # of ui/window.cpp
 
 # Characters whose X name is not the character itself.
 _KEYSYMS = {" ": "space", ".": "period", ",": "comma", "-": "minus", "+": "plus", "/": "slash", "_": "underscore",
@@ -211,8 +212,10 @@ class Window:
         return self.state()["places"][name]
 
     def settle(self):
-        """Until the frames that the events so far called for have been drawn."""
-        self.wait(lambda s: s["framesDue"] == 0, "the window to come to rest")
+        """Until the frames that the events so far called for have been drawn. Pictures call for frames as well, and
+        may come faster than these are drawn: then so many later ones do."""
+        frames = self.wait(lambda s: True, "a state")["frames"] + FRAMES_PER_EVENT + 1
+        self.wait(lambda s: s["framesDue"] == 0 or s["frames"] >= frames, "the window to come to rest")
 
     def rests(self):
         """Looks for half a second whether the program uses less than a twentieth of a processor."""

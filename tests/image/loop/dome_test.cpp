@@ -22,7 +22,7 @@ Scene domeCrowd(int lights) {
 TEST(DomeMeans, AreThoseOfSplit) {
     const Scene scene = domeCrowd(8);
     const Replicas reference = splitReference(scene, loopOptions(64, 48));
-    for (const char* setting : {"sampling=full", "sampling=rooks", "domeBudget=0.2"}) {
+    for (const char* setting : {"sampling=full", "sampling=rooks", "raysPerPixel=4", "domeBudget=0.1"}) {
         Loop loop(scene, loopOptions(64, 48, {setting}));
         expectSameMean(gather(framesOf(loop)), reference, std::string("dome, ") + setting);
     }
