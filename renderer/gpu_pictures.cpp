@@ -1,6 +1,8 @@
 // Upload of pictures of lights, see gpu_pictures.h.
 #include "renderer/gpu_pictures.h"
 
+#include "renderer/gpu/filled_buffer.h"
+
 namespace kilolux {
 
 void GpuPictures::update(gpu::Device& device,
@@ -27,9 +29,7 @@ void GpuPictures::update(gpu::Device& device,
             image_.upload(std::as_bytes(std::span(picture.levels[level].texels)), level, layer);
         warps.insert(warps.end(), picture.warp.begin(), picture.warp.end());
     }
-    warps_ = gpu::Buffer(device, {"lightWarps", warps.size() * sizeof(float),
-                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::DeviceOnly, "lights"});
-    warps_.upload(warps);
+    warps_ = gpu::storageBuffer(device, "lightWarps", warps, "lights");
 }
 
 gpu::Bindings GpuPictures::bindings() const {

@@ -2,6 +2,7 @@
 #include "renderer/accel_gpu/gpu_ray_world.h"
 
 #include "renderer/accel_gpu/ray_query_world.h"
+#include "renderer/gpu/filled_buffer.h"
 
 #include <fmt/format.h>
 
@@ -12,15 +13,7 @@ namespace {
 template<typename T>
 gpu::Buffer texelBuffer(gpu::Device& device, const char* name, VkFormat format, const std::vector<T>& data,
                         VkBufferUsageFlags moreUsage = 0) {
-    gpu::BufferDesc desc;
-    desc.name = name;
-    desc.bytes = data.size() * sizeof(T);
-    desc.usage = VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | moreUsage;
-    desc.cause = "ray world";
-    desc.texelFormat = format;
-    gpu::Buffer buffer(device, desc);
-    buffer.upload(data);
-    return buffer;
+    return gpu::texelBuffer(device, name, data, format, "ray world", moreUsage);
 }
 
 constexpr VkFormat kUint4 = VK_FORMAT_R32G32B32A32_UINT;
