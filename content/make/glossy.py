@@ -34,12 +34,8 @@ def floor():
 def build():
     scene = Scene("glossy", 4.6)
     group = scene.node("hall")
-    scene.node("slabs", group, model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.RUBBER))
-    walls = Model("walls")
-    for wall in shell.outer_walls(WIDTH, DEPTH):
-        wall.material = M.paint("grey wall", (0.3, 0.3, 0.31), 0.8)
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", group, model=walls)
+    grey = [M.paint("grey wall", (0.3, 0.3, 0.31), 0.8) for _ in range(4)]
+    shell.closed_room(scene, group, WIDTH, DEPTH, HEIGHT, M.RUBBER, grey)
     scene.node("floor strips", group, model=floor())
     for k, roughness in enumerate(ROUGHNESS):
         x = WIDTH / len(ROUGHNESS) * (k + 0.5)

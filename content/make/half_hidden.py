@@ -91,11 +91,7 @@ def furnish(scene):
 
 def build():
     scene = Scene("half hidden", 4.5)
-    scene.node("slabs", model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.boards(seed=23)))
-    walls = Model("walls")
-    for wall in shell.outer_walls(WIDTH, DEPTH):
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", model=walls)
+    shell.closed_room(scene, None, WIDTH, DEPTH, HEIGHT, M.boards(seed=23))
     place_lights(scene, Fixtures(scene, scene.node("lights")))
     furnish(scene)
     scene.camera("wide", look_at((4.0, 1.7, 8.62), (4.3, 1.42, 1.5)), math.radians(56))

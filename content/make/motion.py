@@ -176,12 +176,8 @@ def furnish(scene):
 def build():
     scene = Scene("motion", 4.3)
     group = scene.node("hall")
-    scene.node("slabs", group, model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.polished_concrete(0.34, 0.2, 75)))
-    walls = Model("walls")
-    for k, wall in enumerate(shell.outer_walls(WIDTH, DEPTH)):
-        wall.material = M.paint("back wall", (0.20, 0.27, 0.31), 0.85) if k == 0 else None
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", group, model=walls)
+    shell.closed_room(scene, group, WIDTH, DEPTH, HEIGHT, M.polished_concrete(0.34, 0.2, 75),
+                      [M.paint("back wall", (0.20, 0.27, 0.31), 0.85)])
     furnish(scene)
     fixtures = Fixtures(scene, scene.node("lights"))
     channels = smooth_channels(scene, fixtures, group) + step_channels(scene, fixtures, group)

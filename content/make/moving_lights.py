@@ -51,11 +51,7 @@ def bulbs(scene):
 def build():
     scene = Scene("moving lights", 4.2)
     group = scene.node("hall")
-    scene.node("slabs", group, model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.polished_concrete(0.3, 0.2, 403)))
-    walls = Model("walls")
-    for wall in shell.outer_walls(WIDTH, DEPTH):
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", group, model=walls)
+    shell.closed_room(scene, group, WIDTH, DEPTH, HEIGHT, M.polished_concrete(0.3, 0.2, 403))
     round_column, square = F.column(M.PORCELAIN, HEIGHT, 0.24), F.column(M.PLASTER, HEIGHT, 0.22, False)
     oak = M.timber("oak", (0.42, 0.29, 0.16), 0.5, 405)
     for i in range(4):

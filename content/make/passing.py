@@ -55,12 +55,8 @@ def gate():
 def build():
     scene = Scene("passing", 4.6)
     group = scene.node("hall")
-    scene.node("slabs", group, model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.boards(seed=421)))
-    walls = Model("walls")
-    for k, wall in enumerate(shell.outer_walls(WIDTH, DEPTH)):
-        wall.material = M.paint("far wall", (0.42, 0.34, 0.24), 0.85) if k == 0 else None
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", group, model=walls)
+    shell.closed_room(scene, group, WIDTH, DEPTH, HEIGHT, M.boards(seed=421),
+                      [M.paint("far wall", (0.42, 0.34, 0.24), 0.85)])
     oak = M.timber("oak", (0.42, 0.29, 0.16), 0.5, 423)
     column = F.column(M.PLASTER, HEIGHT, 0.16)
     for x in (2.4, 4.8, 7.2, 9.6):

@@ -4,7 +4,6 @@ import math
 
 from kit.gltf import Scene
 from kit.lights import Light
-from kit.mesh import Model
 from kit.motion import path
 from kit.transform import look_at, rotate_x, rotate_y, translate
 from sets import furniture as F
@@ -29,11 +28,7 @@ SPOT = lamp("accent", "spot", 1300.0, (1.0, 0.9, 0.8), radius_m=0.04, inner_rad=
 def build():
     scene = Scene("switched on", 4.4)
     group = scene.node("room")
-    scene.node("slabs", group, model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.boards(seed=441)))
-    walls = Model("walls")
-    for wall in shell.outer_walls(WIDTH, DEPTH):
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", group, model=walls)
+    shell.closed_room(scene, group, WIDTH, DEPTH, HEIGHT, M.boards(seed=441))
     oak = M.timber("oak", (0.42, 0.29, 0.16), 0.5, 443)
     paints = (M.CARDBOARD, F.painted("rust box", (0.36, 0.12, 0.05), 0.6), F.painted("slate box", (0.1, 0.12, 0.15), 0.5))
     for model, x, z, a in ((F.rack(445, paints), 2.0, 0.45, 0.0), (F.cabinet(F.painted("green", (0.1, 0.2, 0.14), 0.4)), 6.6, 0.6, 0),

@@ -69,11 +69,7 @@ def cables():
 def build():
     scene = Scene("thin", 5.0)
     group = scene.node("yard")
-    scene.node("slabs", group, model=shell.slabs(WIDTH, DEPTH, HEIGHT, M.polished_concrete(0.4, 0.5, 461)))
-    walls = Model("walls")
-    for wall in shell.outer_walls(WIDTH, DEPTH):
-        shell.add_wall(walls, wall, HEIGHT)
-    scene.node("walls", group, model=walls)
+    shell.closed_room(scene, group, WIDTH, DEPTH, HEIGHT, M.polished_concrete(0.4, 0.5, 461))
     scene.node("fence near", group, translate(5.6, 0, 4.4) @ rotate_y(0.1), fence(3.0, 1.5, 0.1, 0.008))
     scene.node("fence far", group, translate(2.6, 0, 1.5) @ rotate_y(-0.15), fence(3.4, 1.9, 0.07, 0.005))
     scene.node("wire mesh", group, translate(6.4, 0.02, 1.7) @ rotate_y(-0.4), wire_mesh(2.0, 1.8, 0.05, 0.0015))

@@ -1,7 +1,9 @@
+// The dome of the oracle, see oracle_dome.h.
 #include "renderer/reference/oracle_dome.h"
 
 #include "renderer/reference/oracle_brdf.h"
 #include "renderer/reference/oracle_random.h"
+#include "renderer/reference/oracle_terms.h"
 
 #include <algorithm>
 #include <array>
@@ -14,21 +16,7 @@ namespace {
 
 using glm::dvec3;
 
-constexpr int kReplicas = 8; // independently shifted point sets: they give the standard error
 constexpr int kLeastColumns = 256, kMostColumns = 1024;
-constexpr double kDielectricF0 = 0.04;
-
-double luminanceOf(const dvec3& rgb) {
-    return glm::dot(rgb, dvec3(0.2126, 0.7152, 0.0722));
-}
-
-dvec3 diffuseAlbedo(const OraclePoint& point) {
-    return point.material.baseColor * (1.0 - point.material.metallic);
-}
-
-dvec3 f0Of(const OraclePoint& point) {
-    return glm::mix(dvec3(kDielectricF0), point.material.baseColor, point.material.metallic);
-}
 
 double soundValue(double value) {
     return value > 0.0 && std::isfinite(value) ? value : 0.0;
@@ -113,7 +101,7 @@ struct OracleDome::Drawn {
 
 OracleDome::Seen OracleDome::respond(const OraclePoint& point, Estimator estimator) const {
     const Lobe lobe(point.shadingNormalWs, point.viewDirWs, point.material.roughness);
-    const dvec3 albedo = diffuseAlbedo(point), f0 = f0Of(point);
+    const dvec3 albedo = diffuseAlbedoOf(point.material), f0 = f0Of(point.material);
     Seen seen;
     double sum = 0.0;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
@@ -163,7 +151,7 @@ OraclePointResult OracleDome::estimate(const OraclePoint& point, const Occlusion
     OraclePointResult result;
     const Seen seen = respond(point, estimator);
     if (seen.cells.empty() || !(seen.cumulative.back() > 0.0)) return result;
-    const dvec3 albedo = diffuseAlbedo(point);
+    const dvec3 albedo = diffuseAlbedoOf(point.material);
     result.unshadowedIrradianceLux = seen.exact.diffuse;
     result.unshadowedDiffuseNit = seen.exact.diffuse * albedo / kPi;
     result.unshadowedSpecularNit = seen.exact.specular;
@@ -197,12 +185,7 @@ OraclePointResult OracleDome::estimate(const OraclePoint& point, const Occlusion
     }
     result.diffuseNit = result.irradianceLux * albedo / kPi;
     result.visibility = luminanceOf(result.irradianceLux) / luminanceOf(seen.exact.diffuse);
-    dvec3 squares(0.0);
-    for (const dvec3& total : totals) {
-        const dvec3 deviation = total - result.diffuseNit - result.specularNit;
-        squares += deviation * deviation;
-    }
-    result.standardErrorNit = glm::sqrt(squares / (kReplicas * (kReplicas - 1.0)));
+    result.standardErrorNit = standardErrorOf(totals, result.diffuseNit + result.specularNit);
     return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include "renderer/reference/oracle_quadrature.h"
 #include "renderer/reference/oracle_random.h"
+#include "renderer/reference/oracle_terms.h"
 
 #include <array>
 #include <cmath>
@@ -15,21 +16,6 @@ namespace kilolux::oracle {
 namespace {
 
 using glm::dvec3;
-
-constexpr int kReplicas = 8; // independently shifted point sets: they give the standard error
-constexpr double kDielectricF0 = 0.04;
-
-double luminanceOf(const dvec3& rgb) {
-    return glm::dot(rgb, dvec3(0.2126, 0.7152, 0.0722));
-}
-
-dvec3 f0Of(const PointMaterial& material) {
-    return glm::mix(dvec3(kDielectricF0), material.baseColor, material.metallic);
-}
-
-dvec3 diffuseAlbedoOf(const PointMaterial& material) {
-    return material.baseColor * (1.0 - material.metallic);
-}
 
 bool reaches(const OraclePoint& point, const Occlusion& occlusion, const OracleLight& light,
              dvec3 directionWs, double distanceM) {
@@ -207,7 +193,7 @@ OraclePointResult assemble(const OraclePoint& point, const LitIntegral& exact, c
     result.unshadowedIrradianceLux = exact.diffuse;
     result.unshadowedDiffuseNit = exact.diffuse * albedo / kPi;
     result.unshadowedSpecularNit = exact.specularF0 * f0 + exact.specularOne;
-    dvec3 totals[kReplicas];
+    std::array<dvec3, kReplicas> totals;
     const double all = luminanceOf(exact.diffuse);
     for (int r = 0; r < kReplicas; ++r) {
         const LitIntegral& one = shadowed[std::size_t(r)];
@@ -217,14 +203,9 @@ OraclePointResult assemble(const OraclePoint& point, const LitIntegral& exact, c
         result.specularNit += specularNit / double(kReplicas);
         result.irradianceLux += one.diffuse / double(kReplicas);
         if (all > 0.0) result.visibility += luminanceOf(one.diffuse) / all / kReplicas; // 1 where all is seen
-        totals[r] = diffuseNit + specularNit;
+        totals[std::size_t(r)] = diffuseNit + specularNit;
     }
-    dvec3 squares(0.0);
-    for (const dvec3& total : totals) {
-        const dvec3 deviation = total - result.diffuseNit - result.specularNit;
-        squares += deviation * deviation;
-    }
-    result.standardErrorNit = glm::sqrt(squares / (kReplicas * (kReplicas - 1.0)));
+    result.standardErrorNit = standardErrorOf(totals, result.diffuseNit + result.specularNit);
     return result;
 }
 

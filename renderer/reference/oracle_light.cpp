@@ -6,6 +6,7 @@
 
 #include "renderer/document/ies_profile.h"
 #include "renderer/document/light_units.h"
+#include "renderer/reference/oracle_terms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,7 +144,7 @@ double imageLuminance(const Image& image, double u, double v) {
     return bilinear(image, u, v, [&](int column, int row) {
         const auto wrap = [](int i, int n) { return (i % n + n) % n; };
         const glm::dvec3 rgb = linearTexel(image, wrap(column, image.width), wrap(row, image.height));
-        return std::clamp(glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722)), 0.0, 1.0);
+        return std::clamp(luminanceOf(rgb), 0.0, 1.0);
     });
 }
 

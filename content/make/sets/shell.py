@@ -70,3 +70,14 @@ def outer_walls(width, depth, thickness=0.2):
     return [Wall("x", 0.0, -half, width + half, None, thickness),
             Wall("x", depth, -half, width + half, None, thickness),
             Wall("z", 0.0, 0.0, depth, None, thickness), Wall("z", width, 0.0, depth, None, thickness)]
+
+
+def closed_room(scene, group, width, depth, height, floor, paints=()):
+    """Nodes "slabs" and "walls" of a room over 0..width and 0..depth without openings; `paints` are its walls' materials in
+    the order of outer_walls(), plaster where there are none."""
+    scene.node("slabs", group, model=slabs(width, depth, height, floor))
+    walls = Model("walls")
+    for k, wall in enumerate(outer_walls(width, depth)):
+        wall.material = paints[k] if k < len(paints) else None
+        add_wall(walls, wall, height)
+    scene.node("walls", group, model=walls)
