@@ -1,7 +1,8 @@
-// Device, swapchain and drawing of the window, see imgui_host.h.
+// Device and drawing of the window, see imgui_host.h.
 #include "ui/imgui_host.h"
 
 #include "renderer/gpu/resource.h"
+#include "renderer/gpu/swapchain.h"
 #include "ui/render_thread.h"
 
 #define GLFW_INCLUDE_NONE
@@ -20,8 +21,6 @@ extern "C" VkResult glfwCreateWindowSurface(VkInstance instance, GLFWwindow* win
 namespace kilolux {
 
 namespace {
-
-constexpr std::uint32_t kLeastImages = 2;
 
 gpu::DeviceOptions presentingDevice() {
     gpu::DeviceOptions options;
@@ -62,17 +61,7 @@ struct ImGuiHost::Impl {
 
     gpu::Device device;
     VkSurfaceKHR surface = VK_NULL_HANDLE;
-    VkSurfaceFormatKHR format{};
-    VkPresentModeKHR presentMode = VK_PRESENT_MODE_FIFO_KHR;
-    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-    glm::ivec2 sizePx{0};
-    struct SwapImage {
-        VkImage image = VK_NULL_HANDLE;
-        VkImageView view = VK_NULL_HANDLE;
-        VkFramebuffer framebuffer = VK_NULL_HANDLE;
-        VkSemaphore drawn = VK_NULL_HANDLE;
-    };
-    std::vector<SwapImage> images;
+    std::unique_ptr<gpu::Swapchain> swapchain;
     VkRenderPass renderPass = VK_NULL_HANDLE;
     VkDescriptorPool descriptors = VK_NULL_HANDLE;
     VkCommandPool pool = VK_NULL_HANDLE;
@@ -86,23 +75,19 @@ struct ImGuiHost::Impl {
     glm::ivec2 picturePx{0};
     bool uploadPending = false;
 
-    std::optional<Error> prepare(GLFWwindow* window);
-    std::optional<Error> chooseSurface(GLFWwindow* window);
+    void prepare(GLFWwindow* window);
     void makeRenderPass();
     void makeObjects();
     void startImGui();
-    void makeSwapchain(glm::ivec2 wantedPx);
-    void dropSwapchain();
-    void record(const SwapImage& target, const ViewportRect& rect);
-    void blitPicture(const SwapImage& target, const ViewportRect& rect);
+    void record(const gpu::Swapchain::Image& target, const ViewportRect& rect);
+    void blitPicture(const gpu::Swapchain::Image& target, const ViewportRect& rect);
     std::optional<Error> present(glm::ivec2 windowPx, const ViewportRect& rect);
 };
 
 ImGuiHost::Impl::~Impl() {
     vkDeviceWaitIdle(device.handle());
     if (imguiReady) ImGui_ImplVulkan_Shutdown();
-    dropSwapchain();
-    if (swapchain) vkDestroySwapchainKHR(device.handle(), swapchain, nullptr);
+    swapchain.reset();
     if (renderPass) vkDestroyRenderPass(device.handle(), renderPass, nullptr);
     if (descriptors) vkDestroyDescriptorPool(device.handle(), descriptors, nullptr);
     if (pool) vkDestroyCommandPool(device.handle(), pool, nullptr);
@@ -111,40 +96,17 @@ ImGuiHost::Impl::~Impl() {
     if (surface) vkDestroySurfaceKHR(device.instance(), surface, nullptr);
 }
 
-std::optional<Error> ImGuiHost::Impl::prepare(GLFWwindow* window) {
-    if (auto error = chooseSurface(window)) return error;
+void ImGuiHost::Impl::prepare(GLFWwindow* window) {
+    KX_VK(glfwCreateWindowSurface(device.instance(), window, nullptr, &surface));
+    swapchain = std::make_unique<gpu::Swapchain>(device, surface);
     makeRenderPass();
     makeObjects();
     startImGui();
-    return std::nullopt;
-}
-
-std::optional<Error> ImGuiHost::Impl::chooseSurface(GLFWwindow* window) {
-    KX_VK(glfwCreateWindowSurface(device.instance(), window, nullptr, &surface));
-    VkBool32 presents = VK_FALSE;
-    KX_VK(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queueFamily(), surface, &presents));
-    if (!presents) return Error{fmt::format("device '{}' cannot present to this window", device.name())};
-    std::uint32_t count = 0;
-    KX_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr));
-    std::vector<VkSurfaceFormatKHR> formats(count);
-    KX_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, formats.data()));
-    // Values are sRGB-encoded already, as are ImGui's colours.
-    const auto wanted = std::find_if(formats.begin(), formats.end(), [](const VkSurfaceFormatKHR& f) {
-        return f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM;
-    });
-    if (wanted == formats.end()) return Error{"the window has no 8-bit format"};
-    format = *wanted;
-    KX_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr));
-    std::vector<VkPresentModeKHR> modes(count);
-    KX_VK(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()));
-    if (std::find(modes.begin(), modes.end(), VK_PRESENT_MODE_MAILBOX_KHR) != modes.end())
-        presentMode = VK_PRESENT_MODE_MAILBOX_KHR;
-    return std::nullopt;
 }
 
 void ImGuiHost::Impl::makeRenderPass() {
     VkAttachmentDescription color{};
-    color.format = format.format;
+    color.format = swapchain->format();
     color.samples = VK_SAMPLE_COUNT_1_BIT;
     color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the picture lies below
     color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -198,74 +160,15 @@ void ImGuiHost::Impl::startImGui() {
     info.Queue = device.queue();
     info.PipelineCache = device.pipelineCache();
     info.DescriptorPool = descriptors;
-    info.MinImageCount = kLeastImages;
-    info.ImageCount = kLeastImages; // vertex buffers of so many frames; one frame is in flight
+    info.MinImageCount = gpu::Swapchain::kLeastImages;
+    // Vertex buffers of so many frames; one frame is in flight.
+    info.ImageCount = gpu::Swapchain::kLeastImages;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
     ImGui_ImplVulkan_Init(&info, renderPass);
     imguiReady = true;
 }
 
-void ImGuiHost::Impl::dropSwapchain() {
-    for (const SwapImage& image : images) {
-        vkDestroyFramebuffer(device.handle(), image.framebuffer, nullptr);
-        vkDestroyImageView(device.handle(), image.view, nullptr);
-        vkDestroySemaphore(device.handle(), image.drawn, nullptr);
-    }
-    images.clear();
-}
-
-void ImGuiHost::Impl::makeSwapchain(glm::ivec2 wantedPx) {
-    vkDeviceWaitIdle(device.handle());
-    dropSwapchain();
-    VkSurfaceCapabilitiesKHR can{};
-    KX_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical(), surface, &can));
-    VkExtent2D extent = can.currentExtent;
-    if (extent.width == UINT32_MAX) extent = {std::uint32_t(wantedPx.x), std::uint32_t(wantedPx.y)};
-    sizePx = {int(extent.width), int(extent.height)};
-    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
-    info.surface = surface;
-    info.minImageCount = std::max(kLeastImages, can.minImageCount);
-    info.imageFormat = format.format;
-    info.imageColorSpace = format.colorSpace;
-    info.imageExtent = extent;
-    info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    info.preTransform = can.currentTransform;
-    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-    info.presentMode = presentMode;
-    info.clipped = VK_TRUE;
-    info.oldSwapchain = swapchain;
-    VkSwapchainKHR made = VK_NULL_HANDLE;
-    KX_VK(vkCreateSwapchainKHR(device.handle(), &info, nullptr, &made));
-    if (swapchain) vkDestroySwapchainKHR(device.handle(), swapchain, nullptr);
-    swapchain = made;
-    std::uint32_t count = 0;
-    KX_VK(vkGetSwapchainImagesKHR(device.handle(), swapchain, &count, nullptr));
-    std::vector<VkImage> handles(count);
-    KX_VK(vkGetSwapchainImagesKHR(device.handle(), swapchain, &count, handles.data()));
-    for (VkImage handle : handles) {
-        SwapImage image{handle};
-        VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-        viewInfo.image = handle;
-        viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-        viewInfo.format = format.format;
-        viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        KX_VK(vkCreateImageView(device.handle(), &viewInfo, nullptr, &image.view));
-        VkFramebufferCreateInfo framebufferInfo{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
-        framebufferInfo.renderPass = renderPass;
-        framebufferInfo.attachmentCount = 1;
-        framebufferInfo.pAttachments = &image.view;
-        framebufferInfo.width = extent.width;
-        framebufferInfo.height = extent.height;
-        framebufferInfo.layers = 1;
-        KX_VK(vkCreateFramebuffer(device.handle(), &framebufferInfo, nullptr, &image.framebuffer));
-        const VkSemaphoreCreateInfo semaphoreInfo{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-        KX_VK(vkCreateSemaphore(device.handle(), &semaphoreInfo, nullptr, &image.drawn));
-        images.push_back(image);
-    }
-}
-
-void ImGuiHost::Impl::blitPicture(const SwapImage& target, const ViewportRect& rect) {
+void ImGuiHost::Impl::blitPicture(const gpu::Swapchain::Image& target, const ViewportRect& rect) {
     if (uploadPending) {
         imageBarrier(commands, picture.handle(), VK_IMAGE_LAYOUT_UNDEFINED,
                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -283,7 +186,8 @@ void ImGuiHost::Impl::blitPicture(const SwapImage& target, const ViewportRect& r
     const double cut = std::max(0.5 * (1.0 - rect.width / shownWidth), 0.0); // share left out at each side
     const glm::ivec2 corner(int(rect.x + std::max(0.5 * (rect.width - shownWidth), 0.0)), int(rect.y));
     const glm::ivec2 wanted(int(std::lround(std::min(rect.width, shownWidth))), int(rect.height));
-    const glm::ivec2 end = glm::min(corner + wanted, sizePx);
+    const VkExtent2D extentPx = swapchain->extentPx();
+    const glm::ivec2 end = glm::min(corner + wanted, glm::ivec2(extentPx.width, extentPx.height));
     if (end.x <= corner.x || end.y <= corner.y) return;
     VkImageBlit region{};
     region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -297,7 +201,7 @@ void ImGuiHost::Impl::blitPicture(const SwapImage& target, const ViewportRect& r
                    sameSize ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
 }
 
-void ImGuiHost::Impl::record(const SwapImage& target, const ViewportRect& rect) {
+void ImGuiHost::Impl::record(const gpu::Swapchain::Image& target, const ViewportRect& rect) {
     KX_VK(vkResetCommandBuffer(commands, 0));
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -309,7 +213,7 @@ void ImGuiHost::Impl::record(const SwapImage& target, const ViewportRect& rect) 
     VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
     pass.renderPass = renderPass;
     pass.framebuffer = target.framebuffer;
-    pass.renderArea.extent = {std::uint32_t(sizePx.x), std::uint32_t(sizePx.y)};
+    pass.renderArea.extent = swapchain->extentPx();
     vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
     ImGui_ImplVulkan_RenderDrawData(ImGui::GetDrawData(), commands);
     vkCmdEndRenderPass(commands);
@@ -319,16 +223,10 @@ void ImGuiHost::Impl::record(const SwapImage& target, const ViewportRect& rect) 
 std::optional<Error> ImGuiHost::Impl::present(glm::ivec2 windowPx, const ViewportRect& rect) {
     if (windowPx.x <= 0 || windowPx.y <= 0) return std::nullopt;
     KX_VK(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX));
-    if (!swapchain || sizePx != windowPx) makeSwapchain(windowPx);
-    std::uint32_t index = 0;
-    const VkResult got =
-        vkAcquireNextImageKHR(device.handle(), swapchain, UINT64_MAX, acquired, VK_NULL_HANDLE, &index);
-    if (got == VK_ERROR_OUT_OF_DATE_KHR) {
-        makeSwapchain(windowPx); // the next frame draws into it
-        return std::nullopt;
-    }
-    if (got != VK_SUBOPTIMAL_KHR) KX_VK(got);
-    record(images[index], rect);
+    const gpu::Swapchain::Image* target =
+        swapchain->acquire({std::uint32_t(windowPx.x), std::uint32_t(windowPx.y)}, renderPass, acquired);
+    if (!target) return std::nullopt;
+    record(*target, rect);
     KX_VK(vkResetFences(device.handle(), 1, &fence));
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
@@ -338,20 +236,9 @@ std::optional<Error> ImGuiHost::Impl::present(glm::ivec2 windowPx, const Viewpor
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
     submit.signalSemaphoreCount = 1;
-    submit.pSignalSemaphores = &images[index].drawn;
+    submit.pSignalSemaphores = &target->drawn;
     KX_VK(vkQueueSubmit(device.queue(), 1, &submit, fence));
-    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
-    info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &images[index].drawn;
-    info.swapchainCount = 1;
-    info.pSwapchains = &swapchain;
-    info.pImageIndices = &index;
-    const VkResult shown = vkQueuePresentKHR(device.queue(), &info);
-    if (shown == VK_ERROR_OUT_OF_DATE_KHR || shown == VK_SUBOPTIMAL_KHR) {
-        sizePx = {0, 0}; // the swapchain is made anew by the next frame
-        return std::nullopt;
-    }
-    KX_VK(shown);
+    swapchain->present();
     const std::vector<std::string> messages = device.takeValidationMessages();
     if (!messages.empty()) return Error{fmt::format("Vulkan validation: {}", messages.front())};
     return std::nullopt;
@@ -365,7 +252,7 @@ ImGuiHost::~ImGuiHost() = default;
 Result<std::unique_ptr<ImGuiHost>> ImGuiHost::create(GLFWwindow* window) {
     try {
         auto impl = std::make_unique<Impl>();
-        if (auto error = impl->prepare(window)) return *error;
+        impl->prepare(window);
         return std::unique_ptr<ImGuiHost>(new ImGuiHost(std::move(impl)));
     } catch (const gpu::DeviceError& error) {
         return Error{error.what()};
