@@ -65,6 +65,8 @@ TEST(Dome, WhiteOneIsAFurnace) {
     EXPECT_NEAR(sum / count, 50.0, 0.003 * 50.0);
 }
 
+// `splitBound` of 'split': its specular lobe sees the dome blurred and through the fit, which gives up to 1.2
+// % too much specular light; diffuse light is held apart.
 void compareWithOracle(const Scene& scene, const char* what, double splitBound) {
     for (const char* method : {"true", "split"}) {
         LightOptions options;
@@ -75,7 +77,8 @@ void compareWithOracle(const Scene& scene, const char* what, double splitBound) 
         options.settings = {"exposureEv100=6"};
         const LightComparison comparison = compareLight(scene, options);
         std::cout << what << ", " << method << ": " << comparison << "\n";
-        expectEquivalent(comparison, std::string(method) == "true" ? 0.005 : splitBound);
+        expectEquivalent(comparison, options.method == "true" ? 0.005 : splitBound);
+        EXPECT_NEAR(comparison.diffuseRatio, 1.0, 0.0025);
     }
 }
 
@@ -92,7 +95,7 @@ TEST(Dome, OracleAgreesUnderASmallSun) {
     scene.dome.image = panorama(256, sunnySky);
     scene.dome.intensityNit = 20.0;
     scene.dome.rotationRad = -0.4;
-    compareWithOracle(scene, "sun", 0.01);
+    compareWithOracle(scene, "sun", 0.005);
 }
 
 // Rays that meet nothing see the picture, turned with the dome.

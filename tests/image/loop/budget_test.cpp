@@ -3,29 +3,10 @@
 #include "shaders/shared/sampling.h"
 #include "tests/image/loop/loop_kit.h"
 
-#include <cstring>
-
 namespace kilolux::test {
 namespace {
 
 using namespace shared;
-
-struct Sample {
-    std::uint32_t slot = 0, list = 0;
-    float contribution = 0.0f; // 0: no light
-};
-
-std::vector<Sample> samplesOf(const FrameTargets& targets) {
-    const std::vector<std::byte>& texels = targets.named("samples").texels;
-    std::vector<Sample> result(texels.size() / 16);
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        std::uint32_t words[4];
-        std::memcpy(words, texels.data() + 16 * i, 16);
-        result[i] = {words[0] & SAMPLE_SLOT_MASK, words[0] >> SAMPLE_LIST_SHIFT & SAMPLE_LIST_MASK, 0.0f};
-        std::memcpy(&result[i].contribution, &words[2], 4);
-    }
-    return result;
-}
 
 // ---------------------------------------------------------------------------------------------------------
 // Sun and lamps
@@ -65,7 +46,7 @@ double sunShare(const Scene& scene, const std::vector<std::string>& settings) {
     double chosen = 0.0, sun = 0.0;
     for (int frame = 0; frame < 6; ++frame) {
         loop.frames(1);
-        for (const Sample& sample : samplesOf(loop.targets())) {
+        for (const PixelSample& sample : samplesOf(loop.targets())) {
             chosen += sample.contribution > 0.0f;
             sun += sample.contribution > 0.0f && sample.list == kDirectionalList;
         }
@@ -135,7 +116,7 @@ Contract contractOf(const std::vector<std::string>& settings, bool listed) {
     for (int frame = 0; frame < frames; ++frame) {
         if (listed) loop.renderer().replaceVisibleLists(lists);
         loop.frames(1);
-        for (const Sample& sample : samplesOf(loop.targets())) {
+        for (const PixelSample& sample : samplesOf(loop.targets())) {
             samples += sample.contribution > 0.0f;
             if (sample.contribution <= 0.0f || sample.slot != 1) continue;
             chosen += 1.0;

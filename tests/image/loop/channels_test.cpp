@@ -31,6 +31,30 @@ TEST(Channels, MeanIsThatOfSplit) {
     }
 }
 
+// A light that leaves a mesh out has no weight there: its ray would be a ray for nothing, and only noise.
+TEST(Channels, NoSampleGoesToALightThatLeavesTheMeshOut) {
+    const Scene scene = dividedCrowd();
+    RenderOptions options = loopOptions(64, 48);
+    options.keepTargets = true;
+    Loop loop(scene, options);
+    int chosen = 0, inVain = 0;
+    for (int frame = 0; frame < 3; ++frame) {
+        loop.frames(1);
+        const FrameTargets targets = loop.targets();
+        const std::vector<PixelSample> samples = samplesOf(targets);
+        for (std::size_t pixel = 0; pixel < samples.size(); ++pixel) {
+            const PixelSurface surface = targets.surface(pixel);
+            if (!surface.seen || !(samples[pixel].contribution > 0.0f)) continue;
+            const LightNode& light = scene.lights[samples[pixel].slot];
+            const std::uint8_t ofMesh = scene.nodes[surface.instance].meshChannels;
+            ++chosen;
+            inVain += (scene.lightDefs[std::size_t(light.def)].channels & ofMesh) == 0;
+        }
+    }
+    EXPECT_GT(chosen, 3000);
+    EXPECT_EQ(inVain, 0);
+}
+
 TEST(Channels, EditOfAMeshHoldsFromTheNextFrameOn) {
     Scene before = dividedCrowd();
     for (LightDef& def : before.lightDefs.write())

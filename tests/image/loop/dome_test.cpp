@@ -1,15 +1,10 @@
 // The dome in the stochastic method: its mean is that of 'split', its samples stay within their budget where
 // local lights shine, and edits of it hold from the next frame on.
-#include "shaders/shared/sampling.h"
 #include "tests/image/dome_scenes.h"
 #include "tests/image/loop/loop_kit.h"
 
-#include <cstring>
-
 namespace kilolux::test {
 namespace {
-
-using namespace shared;
 
 Scene domeCrowd(int lights) {
     Scene scene = crowdScene(lights, 5);
@@ -44,16 +39,10 @@ double domeShare(const Scene& scene, const std::vector<std::string>& settings) {
     double chosen = 0.0, dome = 0.0;
     for (int frame = 0; frame < 6; ++frame) {
         loop.frames(1);
-        const FrameTargets targets = loop.targets();
-        const std::vector<std::byte>& texels = targets.named("samples").texels;
-        for (std::size_t at = 0; at < texels.size(); at += 16) {
-            std::uint32_t words[4];
-            std::memcpy(words, texels.data() + at, 16);
-            float contribution;
-            std::memcpy(&contribution, &words[2], 4);
-            if (!(contribution > 0.0f)) continue;
+        for (const PixelSample& sample : samplesOf(loop.targets())) {
+            if (!(sample.contribution > 0.0f)) continue;
             chosen += 1.0;
-            dome += (words[0] >> SAMPLE_LIST_SHIFT & SAMPLE_LIST_MASK) == kDomeList;
+            dome += sample.list == kDomeList;
         }
     }
     EXPECT_GT(chosen, 1000.0);

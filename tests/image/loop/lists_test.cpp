@@ -156,13 +156,10 @@ TEST(Lists, MasksOfLessThanAWindowAreNotBelieved) {
         }
         loop.renderer().replaceVisibleLists(texels);
         loop.frames(1);
-        const std::vector<std::byte> samples = loop.targets().named("samples").texels;
         double inFirst = 0.0, all = 0.0;
-        for (std::size_t at = 0; at < samples.size(); at += 16) {
-            std::uint32_t words[4];
-            std::memcpy(words, samples.data() + at, 16);
-            if (words[2] == 0u) continue; // no light
-            inFirst += (words[1] & 0xffffu) < 0x8000u && words[1] >> 16 < 0x8000u;
+        for (const PixelSample& sample : samplesOf(loop.targets())) {
+            if (sample.contribution == 0.0f) continue; // no light
+            inFirst += (sample.uv & 0xffffu) < 0x8000u && sample.uv >> 16 < 0x8000u;
             all += 1.0;
         }
         EXPECT_GT(all, 1000.0);
@@ -241,21 +238,20 @@ struct Seen {
 
 // By tile, of frames with one ray per pixel.
 std::vector<std::vector<Seen>> seenByTile(const FrameTargets& targets, int width, int height) {
+    constexpr std::uint32_t kDirectionalList = 2;
     const int tilesX = (width + 7) / 8, tilesY = (height + 7) / 8;
     std::vector<std::vector<Seen>> result(std::size_t(tilesX * tilesY));
+    const std::vector<PixelSample> samples = samplesOf(targets);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t pixel = std::size_t(y * width + x);
-            std::uint32_t sample[4], ray;
-            std::memcpy(sample, targets.named("samples").texels.data() + 16 * pixel, 16);
+            const PixelSample& sample = samples[pixel];
+            std::uint32_t ray;
             std::memcpy(&ray, targets.named("rayResults").texels.data() + 4 * pixel, 4);
-            const bool directional = (sample[0] >> SAMPLE_LIST_SHIFT & SAMPLE_LIST_MASK) == 2u;
-            if ((ray & RAY_STATE_MASK) != RAY_VISIBLE || directional) continue;
-            float weight;
-            std::memcpy(&weight, &sample[3], 4);
+            if ((ray & RAY_STATE_MASK) != RAY_VISIBLE || sample.list == kDirectionalList) continue;
             result[std::size_t(y / 8 * tilesX + x / 8)].push_back(
-                {sample[0] & SAMPLE_SLOT_MASK, ray >> RAY_QUARTER_SHIFT & 3u,
-                 std::uint32_t(std::clamp(weight * 256.0f, 1.0f, 65535.0f))});
+                {sample.slot, ray >> RAY_QUARTER_SHIFT & 3u,
+                 std::uint32_t(std::clamp(sample.weight * 256.0f, 1.0f, 65535.0f))});
         }
     }
     return result;
@@ -340,13 +336,14 @@ TEST(Lists, QuartersAreThoseOfTheSamples) {
     Loop loop(crowdScene(24, 6), options);
     loop.frames(2);
     const FrameTargets targets = loop.targets();
+    const std::vector<PixelSample> samples = samplesOf(targets);
     int visible = 0, same = 0;
     for (std::size_t pixel = 0; pixel < targets.pixels(); ++pixel) {
-        std::uint32_t sample[4], ray;
-        std::memcpy(sample, targets.named("samples").texels.data() + 16 * pixel, 16);
+        const PixelSample& sample = samples[pixel];
+        std::uint32_t ray;
         std::memcpy(&ray, targets.named("rayResults").texels.data() + 4 * pixel, 4);
-        if ((ray & RAY_STATE_MASK) != RAY_VISIBLE || (sample[0] & SAMPLE_SLOT_MASK) % 7 > 1) continue;
-        const std::uint32_t column = (sample[1] & 0xffffu) >= 0x8000u, row = (sample[1] >> 16) >= 0x8000u;
+        if ((ray & RAY_STATE_MASK) != RAY_VISIBLE || sample.slot % 7 > 1) continue;
+        const std::uint32_t column = (sample.uv & 0xffffu) >= 0x8000u, row = (sample.uv >> 16) >= 0x8000u;
         ++visible;
         same += (ray >> RAY_QUARTER_SHIFT & 3u) == column + 2 * row;
     }

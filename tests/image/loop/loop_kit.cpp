@@ -1,5 +1,8 @@
 #include "tests/image/loop/loop_kit.h"
 
+#include "shaders/shared/sampling.h"
+
+#include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
@@ -63,6 +66,22 @@ FrameTargets Loop::targets() {
     Result<std::vector<NamedImage>> images = renderer_->targets();
     if (!images) throw std::runtime_error(images.error());
     return FrameTargets(std::move(images.value()));
+}
+
+std::vector<PixelSample> samplesOf(const FrameTargets& targets) {
+    const std::vector<std::byte>& texels = targets.named("samples").texels;
+    std::vector<PixelSample> result(texels.size() / 16);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        std::uint32_t words[4];
+        std::memcpy(words, texels.data() + 16 * i, 16);
+        PixelSample& sample = result[i];
+        sample.slot = words[0] & shared::SAMPLE_SLOT_MASK;
+        sample.list = words[0] >> shared::SAMPLE_LIST_SHIFT & shared::SAMPLE_LIST_MASK;
+        sample.uv = words[1];
+        std::memcpy(&sample.contribution, &words[2], 4);
+        std::memcpy(&sample.weight, &words[3], 4);
+    }
+    return result;
 }
 
 // ---------------------------------------------------------------------------------------------------------

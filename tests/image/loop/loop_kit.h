@@ -32,6 +32,15 @@ class Loop {
     std::unique_ptr<Renderer> renderer_;
 };
 
+// What a pixel of the image `samples` holds (shaders/shared/sampling.h).
+struct PixelSample {
+    std::uint32_t slot = 0, list = 0; // LIST_* of shaders/math/selection_types.glsl
+    std::uint32_t uv = 0;             // 16 bits each, u in the low ones
+    float contribution = 0.0f;        // 0: no light
+    float weight = 0.0f;
+};
+std::vector<PixelSample> samplesOf(const FrameTargets& targets); // row by row
+
 // The light of one replica: means over the picture, over its 4 x 4 regions, and over the four pixels of all
 // 2 x 2 blocks.
 struct Light {

@@ -33,6 +33,17 @@ struct SmallRoom {
     }
 };
 
+// What a picture's pixel saw, as a point to shade.
+OraclePoint pointOf(const OraclePixel& pixel, const Camera& camera) {
+    OraclePoint point;
+    point.positionWs = pixel.positionWs;
+    point.geometricNormalWs = pixel.geometricNormalWs;
+    point.shadingNormalWs = pixel.shadingNormalWs;
+    point.viewDirWs = glm::normalize(dvec3(camera.worldFromCamera[3]) - pixel.positionWs);
+    point.material = {pixel.baseColor, pixel.metallic, pixel.roughness};
+    return point;
+}
+
 TEST(CameraRay, CornersAndCentre) {
     Camera camera;
     camera.yfovRad = 0.5 * kPi;
@@ -134,12 +145,7 @@ TEST(Render, PointCallMatchesThePicture) {
     const OracleImage image = oracle.render(room.camera, 24, 16, options);
     const OraclePixel& pixel = image.pixels[12 * 24 + 12];
     ASSERT_GE(pixel.node, 0);
-    OraclePoint point;
-    point.positionWs = pixel.positionWs;
-    point.geometricNormalWs = pixel.geometricNormalWs;
-    point.shadingNormalWs = pixel.shadingNormalWs;
-    point.viewDirWs = glm::normalize(dvec3(room.camera.worldFromCamera[3]) - pixel.positionWs);
-    point.material = {pixel.baseColor, pixel.metallic, pixel.roughness};
+    const OraclePoint point = pointOf(pixel, room.camera);
     dvec3 sum(0.0);
     for (std::size_t i = 0; i < oracle.lightCount(); ++i) {
         const OraclePointResult r = oracle.evaluatePoint(point, i, options);
@@ -191,13 +197,7 @@ TEST(Render, ShadePointsOnAGivenGBuffer) {
     for (const OraclePixel& pixel : image.pixels) {
         if (pixel.node < 0) continue;
         seen.push_back(&pixel);
-        OraclePoint point;
-        point.positionWs = pixel.positionWs;
-        point.geometricNormalWs = pixel.geometricNormalWs;
-        point.shadingNormalWs = pixel.shadingNormalWs;
-        point.viewDirWs = glm::normalize(dvec3(room.camera.worldFromCamera[3]) - pixel.positionWs);
-        point.material = {pixel.baseColor, pixel.metallic, pixel.roughness};
-        points.push_back(point);
+        points.push_back(pointOf(pixel, room.camera));
     }
     const std::vector<OraclePixel> shaded = oracle.shadePoints(points, options);
     ASSERT_EQ(shaded.size(), points.size());
