@@ -192,15 +192,19 @@ double relative(double found, double truth, double least) {
     return std::abs(found - truth) / std::max(std::abs(truth), least);
 }
 
-void checkCase(const HardCase& c, Errors& errors, const char* name, int index) {
-    SCOPED_TRACE(testing::Message() << name << ", light type " << int(c.def.type) << ", case " << index);
+GpuLights recordsOf(const LightDef& def, const glm::dmat4& world) {
     Scene scene;
-    scene.lightDefs = {c.def};
+    scene.lightDefs = {def};
     Node node;
-    node.worldFromNode = c.world;
+    node.worldFromNode = world;
     scene.nodes = {node};
     scene.lights = {{.id = 1, .node = 0, .def = 0}};
-    const GpuLights records = makeGpuLights(scene, dvec3(0.0), 0.0);
+    return makeGpuLights(scene, dvec3(0.0), 0.0);
+}
+
+void checkCase(const HardCase& c, Errors& errors, const char* name, int index) {
+    SCOPED_TRACE(testing::Message() << name << ", light type " << int(c.def.type) << ", case " << index);
+    const GpuLights records = recordsOf(c.def, c.world);
     const BindLightTables bound(records.tables);
     const shared::LightHot& hot = records.hot[0];
     const f64::LightHot exactHot = f64::fromF32(hot);
@@ -320,6 +324,73 @@ TEST(HardCases, FloatAgainstDoubleAgainstTheOracle) {
     }
 }
 
+// A source of unit radiance at `heightM` off its surface: all of the sky that a receiver sees which faces it.
+HardCase onTheSurface(LightType type, double heightM, Random& random) {
+    HardCase c = plainCase(random, type);
+    c.def.rangeM.reset();
+    c.def.outerConeRad = c.def.innerConeRad = 0.5 * kPi;
+    c.def.angularDiameterRad = 3.13; // nearly half of the sky: float has no tangent of a quarter turn
+    c.normal = {0.0, 0.0, 1.0};
+    const double along = random.uniform(-0.3, 0.3) * c.def.widthM,
+                 across = random.uniform(-0.2, 0.2) * c.def.widthM;
+    if (type == LightType::Rect || type == LightType::Disk) {
+        c.receiver = {along, across, -heightM};
+    } else if (type == LightType::Tube) {
+        c.receiver = {along, 0.0, -(c.def.radiusM + heightM)};
+    } else {
+        c.receiver = {0.0, 0.0, -(c.def.radiusM + heightM)};
+    }
+    return c;
+}
+
+// On the light both lobes give back all that they can, and no more however the surface is turned.
+TEST(HardCases, OnTheLightLobesReflectAWholeSky) {
+    useLtcTable(loadLtcTable(KILOLUX_SOURCE_DIR "/content/ltc_ggx.bin").value());
+    Random random;
+    for (const LightType type : kTypes) {
+        double worstDiffuse = 0.0, worstGgx = 0.0, most = 0.0, worstFloat = 0.0;
+        for (const double heightM : {0.0, 1e-9, 1e-8, 1e-7, 1e-6}) {
+            for (int i = 0; i < 80; ++i) {
+                HardCase c = onTheSurface(type, heightM, random);
+                const bool turned = i % 2 != 0;
+                if (turned) c.normal = glm::normalize(c.normal + random.direction() * 0.99);
+                c.view = glm::normalize(c.normal + random.direction() * random.uniform(0.0, 0.999));
+                c.roughness = i % 3 == 0 ? 0.0 : random.uniform(0.0, 1.0);
+                const GpuLights records = recordsOf(c.def, c.world);
+                const BindLightTables bound(records.tables);
+                const auto point = f32::makeShadingPoint(glm::vec3(c.receiver), glm::vec3(c.normal),
+                                                         glm::vec3(c.view), float(c.roughness));
+                const auto lobe = f32::makeLtcLobe(point);
+                const auto lit = f32::lightIrradiance(records.hot[0], point, lobe);
+                const double ggx = double(lit.specular.x) + lit.specular.y,
+                             whole = double(lobe.albedo.x) + lobe.albedo.y;
+                ASSERT_TRUE(sound(lit.diffuse) && sound(lit.specular.x) && sound(lit.specular.y));
+                ASSERT_LE(lit.diffuse, kPi * 1.001);
+                ASSERT_LE(ggx, whole * 1.001) << "type " << int(type) << ", " << heightM << " m";
+                most = std::max(most, ggx / whole);
+                // Nearer, float rounds the light's plane through the receiver, or the receiver into the
+                // light.
+                if (heightM < 1e-7) continue;
+                const auto exactPoint =
+                    f64::makeShadingPoint(dvec3(glm::vec3(c.receiver)), c.normal, c.view, c.roughness);
+                const auto exact = f64::lightIrradiance(f64::fromF32(records.hot[0]), exactPoint,
+                                                        f64::makeLtcLobe(exactPoint));
+                worstFloat =
+                    std::max(worstFloat, std::abs(ggx - exact.specular.x - exact.specular.y) / whole);
+                if (turned) continue;
+                worstDiffuse = std::max(worstDiffuse, std::abs(lit.diffuse / kPi - 1.0));
+                worstGgx = std::max(worstGgx, std::abs(ggx / whole - 1.0));
+            }
+        }
+        std::printf("light type %d, on its surface: diffuse within %.1e, GGX within %.1e of a whole sky's, "
+                    "at most %.4f of it; float from double %.1e of it\n",
+                    int(type), worstDiffuse, worstGgx, most, worstFloat);
+        EXPECT_LT(worstDiffuse, 1e-3);
+        EXPECT_LT(worstGgx, 0.015);
+        EXPECT_LT(worstFloat, 0.02);
+    }
+}
+
 // What no file should hold and some do: such a light is dark, and the others stay as they are.
 TEST(HardCases, NumbersThatAreNoneGiveNoLight) {
     useLtcTable(loadLtcTable(KILOLUX_SOURCE_DIR "/content/ltc_ggx.bin").value());
@@ -335,11 +406,7 @@ TEST(HardCases, NumbersThatAreNoneGiveNoLight) {
             for (double LightDef::*const field : fields) {
                 HardCase c = plainCase(random, type);
                 c.def.*field = value;
-                Scene scene;
-                scene.lightDefs = {c.def};
-                scene.nodes = {Node{}};
-                scene.lights = {{.id = 1, .node = 0, .def = 0}};
-                const GpuLights records = makeGpuLights(scene, dvec3(0.0), 0.0);
+                const GpuLights records = recordsOf(c.def, c.world);
                 const BindLightTables bound(records.tables);
                 const auto point = f32::makeShadingPoint(glm::vec3(c.receiver), glm::vec3(c.normal),
                                                          glm::vec3(c.view), float(c.roughness));

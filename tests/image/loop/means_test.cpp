@@ -13,13 +13,16 @@ struct Mode {
     int pixelsPerRay = 1;
 };
 
-void expectUnbiased(const std::vector<Mode>& modes) {
-    const Scene scene = crowdScene(24, 5);
+void expectUnbiased(const Scene& scene, const std::vector<Mode>& modes) {
     const Replicas reference = splitReference(scene, loopOptions(kWidth, kHeight));
     for (const Mode& mode : modes) {
         Loop loop(scene, loopOptions(kWidth, kHeight, mode.settings));
         expectSameMean(gather(framesOf(loop, 4, mode.pixelsPerRay)), reference, mode.name);
     }
+}
+
+void expectUnbiased(const std::vector<Mode>& modes) {
+    expectUnbiased(crowdScene(24, 5), modes);
 }
 
 TEST(Means, GuidingAndMasksKeepThem) {
@@ -43,6 +46,14 @@ TEST(Means, CandidatesAndBudgetsKeepThem) {
                     {"few hidden", {"hiddenShare=0.02", "missHiddenShare=0.02"}},
                     {"short lists", {"listLength=3", "listMemory=1"}},
                     {"roulette", {"dimThreshold=0.2"}}});
+}
+
+// Doors, profiles, light functions, shadows of a scaled source, pictures.
+TEST(Means, ShapedLightsKeepThem) {
+    std::vector<LightCase> lights = shapedLights();
+    for (const LightCase& light : pictureLights())
+        lights.push_back(light);
+    expectUnbiased(withIds(stageScene(lights)), {{"shaped", {}}});
 }
 
 // ---------------------------------------------------------------------------------------------------------
