@@ -59,6 +59,7 @@ struct Settings {
     double maskHiddenShare = 0.1;
     double hiddenShare = 0.2;
     double missHiddenShare = 0.5;
+    double hiddenSeenShare = 0.8;
     double hiddenRelaxedBelow = 0.02;
     double directionalShare = 0.5;
     double directionalFreeBelow = 0.002;

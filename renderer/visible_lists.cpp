@@ -40,6 +40,7 @@ SamplingConstants samplingConstants(const Settings& s) {
     c.maskHiddenShare = float(s.maskHiddenShare);
     c.hiddenShare = float(s.hiddenShare);
     c.missHiddenShare = float(s.missHiddenShare);
+    c.hiddenSeenShare = float(s.hiddenSeenShare);
     c.hiddenRelaxedBelow = weight(s.hiddenRelaxedBelow);
     c.directionalShare = float(s.directionalShare);
     c.directionalFreeBelow = weight(s.directionalFreeBelow);

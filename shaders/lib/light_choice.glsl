@@ -134,8 +134,9 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         ++state.candidates;
     }
 
-    state.budget = SelectionBudget(missed ? how.missHiddenShare : how.hiddenShare, how.hiddenRelaxedBelow,
-                                   how.directionalShare, how.directionalFreeBelow, how.domeShare);
+    state.budget = SelectionBudget(missed ? how.missHiddenShare : how.hiddenShare, guided ? arrivedShare(head) : 0.0,
+                                   how.hiddenSeenShare, how.hiddenRelaxedBelow, how.directionalShare,
+                                   how.directionalFreeBelow, how.domeShare);
     float editedShare = max(listed.y / max(listed.x, 1.0e-20), likely.y / max(likely.x, 1.0e-20));
     state.flags = missed ? SAMPLE_MISSED : 0u;
     if (editedShare > 0.0)

@@ -21,14 +21,22 @@ VisibleEntry unpackEntry(uint word) {
                         word >> ENTRY_OLDER_SHIFT & 15u, word >> ENTRY_AGE_SHIFT & 15u);
 }
 
-// A list's first texel: x = length; y = entries that found no room, and above them for each of the first directional
-// lights 4 bits: how many frames more it counts as seen. Later ones always do.
-const uint HEAD_LOST_MASK = 0xffffu;
+// A list's first texel: x = length; y = entries that found no room, above them the share of the rays to lights off a
+// full list that arrived lately, and for each of the first directional lights 4 bits: how many frames more it counts as
+// seen. Later ones always do.
+const uint HEAD_LOST_MASK = 0xffu;
+const uint HEAD_ARRIVED_SHIFT = 8u;
+const uint HEAD_ARRIVED_MASK = 0xffu; // and one over its unit
 const uint HEAD_SUNS_SHIFT = 16u;
 const uint HEAD_SUNS = 4u;
 
 bool isSeenDirectional(uvec2 head, uint sun) {
     return sun >= HEAD_SUNS || (head.y >> (HEAD_SUNS_SHIFT + 4u * sun) & 15u) != 0u;
+}
+
+// In [0, 1].
+float arrivedShare(uvec2 head) {
+    return float(head.y >> HEAD_ARRIVED_SHIFT & HEAD_ARRIVED_MASK) / float(HEAD_ARRIVED_MASK);
 }
 
 // First texel of a tile's list. Tiles outside are clamped: a pixel that comes from beyond the border still gets

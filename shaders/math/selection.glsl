@@ -137,8 +137,11 @@ KX_INLINE float cappedSum(float sum, float others, float share) {
 // visible.
 KX_INLINE vec2 budgetedSums(float visibleSum, float hiddenSum, float directionalSum, SelectionBudget budget) {
     float hidden = hiddenSum;
-    if (visibleSum > 0.0)
-        hidden = cappedSum(hiddenSum, max(visibleSum, budget.hiddenRelaxedBelow), budget.hiddenShare);
+    if (visibleSum > 0.0) {
+        float others = max(visibleSum, budget.hiddenRelaxedBelow);
+        float seen = cappedSum(hiddenSum * budget.hiddenArriving, others, budget.hiddenSeenShare);
+        hidden = max(cappedSum(hiddenSum, others, budget.hiddenShare), seen);
+    }
     float local = visibleSum + hidden;
     float directional = directionalSum;
     if (local > 0.0 && local >= budget.directionalFreeBelow)

@@ -42,6 +42,8 @@ struct Candidate {
 // Caps on the share of the samples, and the sums of weights under which they give way.
 struct SelectionBudget {
     float hiddenShare;          // of the local lights' samples, [0, 1]: 0.2; 0.5 where reprojection failed
+    float hiddenArriving;       // of the rays to lights off a full list, [0, 1]: as much of them counts as visible
+    float hiddenSeenShare;      // the cap on that part, [0, 1]: 0.8
     float hiddenRelaxedBelow;   // sum of visible weights; below it the share rises, to 1 at 0
     float directionalShare;     // of all samples, [0, 1]: 0.5
     float directionalFreeBelow; // sum of local weights, as merged; below it there is no cap

@@ -12,6 +12,7 @@
 #include "lib/sample.glsl"
 #include "lib/tile_order.glsl"
 #include "lib/visible_list.glsl"
+#include "math/hash.glsl"
 
 layout(constant_id = CHOICE_LANES) const int kLanes = 8;
 const int kPixelsPerLane = 64 / kLanes;
@@ -31,6 +32,7 @@ layout(scalar) buffer Counters {
 };
 
 const uint kNone = 0xffffffffu;
+const float kArrivedRays = 32.0; // that the share of arrived ones remembers, about three frames' of a tile
 const uint kRoom = 128u; // of one layer's 64 samples and the entries before, which are at most 33 + 64 long
 
 shared uvec2 entries[2][kRoom]; // in turn the list so far and the next one
@@ -78,15 +80,26 @@ uint seenSuns(uint headY, uint seenNow) {
     return frames;
 }
 
-// What a sample adds: x = slot, y = energy << 4 | quarter; kNone for what was not seen, or is directional, which adds to
-// `suns`.
-uvec2 seenSample(uvec2 pixel, uint layer, inout uint suns) {
+// What the samples of a lane's pixels tell beside the lights that they saw.
+struct Seen {
+    uint suns;          // bits of those of a list's head
+    uint hiddenRays;    // to lights off the list,
+    uint hiddenArrived; // and those of them that arrived
+};
+
+// What a sample adds: x = slot, y = energy << 4 | quarter; kNone for what was not seen, or is directional.
+uvec2 seenSample(uvec2 pixel, uint layer, inout Seen seen) {
     if (any(greaterThanEqual(pixel, frame.size))) return uvec2(kNone, 0u);
     uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
-    if ((result & RAY_STATE_MASK) != RAY_VISIBLE) return uvec2(kNone, 0u);
+    bool visible = (result & RAY_STATE_MASK) == RAY_VISIBLE;
     StoredSample s = unpackSample(texelFetch(samples, ivec3(pixel, layer), 0));
+    if (s.list == LIST_HIDDEN && s.contribution > 0.0) {
+        ++seen.hiddenRays;
+        seen.hiddenArrived += visible ? 1u : 0u;
+    }
+    if (!visible) return uvec2(kNone, 0u);
     if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) {
-        suns |= bitsOfSun(s.slot);
+        seen.suns |= bitsOfSun(s.slot);
         return uvec2(kNone, 0u);
     }
     uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
@@ -94,12 +107,12 @@ uvec2 seenSample(uvec2 pixel, uint layer, inout uint suns) {
 }
 
 // Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
-uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout uint suns) {
+uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Seen all) {
     uint lane = gl_LocalInvocationID.x;
     uint slots[kPixelsPerLane], energies[kPixelsPerLane], quartersOf[kPixelsPerLane];
     for (int i = 0; i < kPixelsPerLane; ++i) {
         uint at = uint(i * kLanes) + lane;
-        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, suns);
+        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, all);
         slots[i] = seen.x;
         energies[i] = seen.y >> 4u;
         quartersOf[i] = seen.y & 15u;
@@ -142,6 +155,16 @@ uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout uint suns) 
     return made;
 }
 
+// The share of the rays to lights off the list that arrive: what those lights give for which there is no room. A
+// running mean over rays, rounded by chance so that small steps are not lost.
+uint arrivedBits(uvec2 tile, uvec2 head, Seen seen) {
+    float rays = float(subgroupAdd(seen.hiddenRays)), arrived = float(subgroupAdd(seen.hiddenArrived));
+    float before = arrivedShare(head);
+    float share = before + (arrived - rays * before) / (rays + kArrivedRays);
+    float chance = whiteNoise1(pixelSeed(tile, frame.sampling.noiseFrame, frame.seed), 24u);
+    return min(uint(share * float(HEAD_ARRIVED_MASK) + chance), HEAD_ARRIVED_MASK) << HEAD_ARRIVED_SHIFT;
+}
+
 // Takes out the entry of least energy, of equal ones the last, by moving up what is behind it.
 void dropWeakest(uint from, uint count) {
     uint weakest = 0u;
@@ -158,7 +181,8 @@ void main() {
     Reprojection before = reproject(middle);
     uint first = listTexel(ivec2(before.uv * vec2(frame.previousSize) / float(LIST_TILE_PX)), frame.previousTiles);
     uvec2 head = frame.historyValid != 0u ? texelFetch(visibleLists, int(first)).xy : uvec2(0u);
-    uint stored = min(head.x, LIST_CAPACITY), suns = 0u;
+    uint stored = min(head.x, LIST_CAPACITY);
+    Seen seen = Seen(0u, 0u, 0u);
     for (uint i = lane; i < stored; i += uint(kLanes))
         entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy);
     subgroupMemoryBarrierShared();
@@ -173,7 +197,7 @@ void main() {
     subgroupBarrier();
     uint wanted = min(frame.sampling.listLength, LIST_CAPACITY), lost = 0u;
     for (uint layer = 0u; layer < frame.sampling.rays; ++layer) {
-        count = mergeLayer(tile, layer, from, count, suns);
+        count = mergeLayer(tile, layer, from, count, seen);
         from = 1u - from;
         while (count > wanted) {
             if (lane == 0u) dropWeakest(from, count);
@@ -183,10 +207,13 @@ void main() {
         subgroupMemoryBarrierShared();
         subgroupBarrier();
     }
-    if (kDirectionalLights || kDome) suns = seenSuns(head.y, subgroupOr(suns));
+    // Where there is room, what arrived is on the list from now on, and nothing is to be expected of the others.
+    if (lost == 0u) seen.hiddenArrived = 0u;
+    uint more = arrivedBits(tile, head, seen);
+    if (kDirectionalLights || kDome) more |= seenSuns(head.y, subgroupOr(seen.suns)) << HEAD_SUNS_SHIFT;
     uint out0 = (tile.y * frame.tiles.x + tile.x) * LIST_TEXELS;
     if (lane == 0u) {
-        listsOut[out0] = uvec2(count, min(lost, HEAD_LOST_MASK) | suns << HEAD_SUNS_SHIFT);
+        listsOut[out0] = uvec2(count, min(lost, HEAD_LOST_MASK) | more);
         atomicAdd(counters[COUNTER_LIST_ENTRIES], count);
         if (lost > 0u) atomicAdd(counters[COUNTER_LIST_OVERFLOW], lost);
     }

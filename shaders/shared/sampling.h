@@ -70,6 +70,7 @@ struct SamplingConstants {
     float maskHiddenShare;
     float hiddenShare;
     float missHiddenShare;
+    float hiddenSeenShare;
     float hiddenRelaxedBelow; // a weight
     float directionalShare;
     float directionalFreeBelow; // a weight

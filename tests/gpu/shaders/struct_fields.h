@@ -21,7 +21,7 @@
 #define FIELDS_RayListHead(F) F(groupsX) F(groupsY) F(groupsZ) F(count)
 #define FIELDS_SamplingConstants(F) \
     F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(hiddenShare) \
-    F(missHiddenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) F(domeShare) \
+    F(missHiddenShare) F(hiddenSeenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) F(domeShare) \
     F(cellCandidates) F(missCandidates) F(dimThreshold) F(dimMode) F(listLength) F(listMemory) \
     F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
 #define FIELDS_DenoisingConstants(F) \

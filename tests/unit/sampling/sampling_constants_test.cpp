@@ -52,6 +52,7 @@ TEST(SamplingConstants, TheRestIsPassedOn) {
     settings.maskHiddenShare = 0.05;
     settings.hiddenShare = 0.3;
     settings.missHiddenShare = 0.6;
+    settings.hiddenSeenShare = 0.7;
     settings.directionalShare = 0.7;
     settings.cellCandidates = 11;
     settings.missCandidates = 12;
@@ -64,6 +65,7 @@ TEST(SamplingConstants, TheRestIsPassedOn) {
     EXPECT_FLOAT_EQ(c.maskHiddenShare, 0.05f);
     EXPECT_FLOAT_EQ(c.hiddenShare, 0.3f);
     EXPECT_FLOAT_EQ(c.missHiddenShare, 0.6f);
+    EXPECT_FLOAT_EQ(c.hiddenSeenShare, 0.7f);
     EXPECT_FLOAT_EQ(c.directionalShare, 0.7f);
     EXPECT_EQ(c.cellCandidates, 11u);
     EXPECT_EQ(c.missCandidates, 12u);

@@ -24,14 +24,24 @@ f64::SelectionBudget failedReprojection() {
     return budget;
 }
 
+f64::SelectionBudget arriving(double share) {
+    f64::SelectionBudget budget = defaultBudget();
+    budget.hiddenArriving = share;
+    return budget;
+}
+
 std::vector<Case> cases() {
     const f64::SelectionBudget usual = defaultBudget();
     const f64::SelectionBudget closed = {.hiddenShare = 0.0,
+                                         .hiddenArriving = 0.0,
+                                         .hiddenSeenShare = 0.0,
                                          .hiddenRelaxedBelow = 0.0,
                                          .directionalShare = 0.0,
                                          .directionalFreeBelow = 0.0,
                                          .domeShare = 0.0};
     const f64::SelectionBudget open = {.hiddenShare = 1.0,
+                                       .hiddenArriving = 0.0,
+                                       .hiddenSeenShare = 0.0,
                                        .hiddenRelaxedBelow = 0.0,
                                        .directionalShare = 1.0,
                                        .directionalFreeBelow = 0.0,
@@ -51,6 +61,11 @@ std::vector<Case> cases() {
         {"hidden tiny", {{1.0, 2.0}, {1e-3, 2e-3}, {}}, usual, 3e-3 / 3.003, 0.0},
         {"reprojection failed", {{1.0, 2.0, 1.0}, {5.0, 1.0, 9.0}, {}}, failedReprojection(), 0.5, 0.0},
         {"reprojection failed, hidden weak", {{4.0}, {1.0, 1.0}, {}}, failedReprojection(), 1.0 / 3.0, 0.0},
+        {"few rays to hidden arrive", {{4.0}, {8.0, 8.0}, {}}, arriving(1.0 / 32.0), 0.2, 0.0},
+        {"half of those to hidden arrive", {{1.0, 3.0}, {8.0, 4.0}, {}}, arriving(0.5), 0.6, 0.0},
+        {"all of those to hidden arrive", {{1.0, 2.0}, {2.0, 1.0}, {}}, arriving(1.0), 0.5, 0.0},
+        {"hidden arrive, but take no more", {{1.0, 2.0}, {90.0, 60.0}, {}}, arriving(1.0), 0.8, 0.0},
+        {"hidden arrive, visible dim", {{0.01}, {0.2, 0.2}, {}}, arriving(1.0), 40.0 / 41.0, 0.0},
         {"visible at its threshold", {{0.06, 0.04}, {5.0, 1.0}, {}}, usual, 0.2, 0.0},
         {"visible under its threshold", {{0.02, 0.03}, {5.0, 1.0}, {}}, usual, 1.0 / 3.0, 0.0},
         {"visible nearly nothing", {{0.0025}, {5.0, 1.0}, {}}, usual, 10.0 / 11.0, 0.0},

@@ -154,7 +154,7 @@ TEST(Estimator, WhiteNoiseInFloatConverges) {
         lights.push_back({list, light, f64::perceptualWeight(light * uniform(random, 0.7, 1.4), 1.0)});
         sum += light;
     }
-    const f32::SelectionBudget budget = {0.2f, 0.05f, 0.5f, 0.05f, 0.5f};
+    const f32::SelectionBudget budget = {0.2f, 0.0f, 0.8f, 0.05f, 0.5f, 0.05f, 0.5f};
     const uint stride = 3;
     const uint pixels = 400000;
     double mean = 0.0;

@@ -113,7 +113,7 @@ TEST(Precision, FloatChoosesAsDouble) {
 TEST(Precision, HardWeightsStayFinite) {
     const float hard[] = {0.0f, 1e-45f, 1e-38f, 1e-20f, 1e-12f, 1e-6f, 1.0f, 1e3f, 1e6f, 1e38f};
     std::mt19937 random(9);
-    const f32::SelectionBudget budget = {0.2f, 0.05f, 0.5f, 0.05f, 0.5f};
+    const f32::SelectionBudget budget = {0.2f, 0.0f, 0.8f, 0.05f, 0.5f, 0.05f, 0.5f};
     for (int round = 0; round < 20000; ++round) {
         const float edge = round % 3 == 0 ? 0.0f : 0.99999994f;
         const f32::vec3 numbers =

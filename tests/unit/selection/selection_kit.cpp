@@ -16,6 +16,8 @@ std::vector<f64::Candidate> Lights::candidates() const {
 
 f64::SelectionBudget defaultBudget() {
     return {.hiddenShare = 0.2,
+            .hiddenArriving = 0.0,
+            .hiddenSeenShare = 0.8,
             .hiddenRelaxedBelow = 0.1,
             .directionalShare = 0.5,
             .directionalFreeBelow = 0.1,
