@@ -1,11 +1,9 @@
 #include "renderer/document/file_replace.h"
 
-#include <cerrno>
-#include <cstring>
+#include "renderer/document/posix_write.h"
+
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 namespace kilolux {
 
@@ -62,20 +60,6 @@ class NewFile {
     bool isNamed_;
     Descriptor named_;
 };
-
-Error systemError(const fs::path& path, const char* what) {
-    return Error{fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno))};
-}
-
-bool writeAll(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
-}
 
 // The directory entry is durable only once the directory is.
 bool syncFolder(const fs::path& folder) {

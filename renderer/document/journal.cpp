@@ -1,15 +1,12 @@
 #include "renderer/document/journal.h"
 
 #include "renderer/document/file_hash.h"
+#include "renderer/document/posix_write.h"
 
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 namespace kilolux {
 
@@ -36,20 +33,6 @@ T get(std::string_view bytes, std::size_t at) {
 // The number keeps a record from passing at another one's place.
 std::uint32_t checksum(std::uint64_t number, std::string_view payload) {
     return static_cast<std::uint32_t>(hashBytes(payload) ^ (number + 1) * 0x9E3779B97F4A7C15ull);
-}
-
-Error systemError(const std::filesystem::path& path, const char* what) {
-    return Error{fmt::format("{}: cannot {}: {}", path.string(), what, std::strerror(errno))};
-}
-
-bool writeAll(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written <= 0) return false;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return true;
 }
 
 } // namespace
