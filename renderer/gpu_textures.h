@@ -20,6 +20,7 @@ struct TextureArrays {
 // Only images that some material uses. Errors: more layers of one size than the device has.
 Result<TextureArrays> makeTextureArrays(gpu::Device& device, const Scene& scene);
 
+// What a material says of a texture, for the device; `placeOfImage` of makeTextureArrays().
 shared::GpuTextureRef makeTextureRef(const TextureRef& ref, const std::vector<std::uint32_t>& placeOfImage);
 
 } // namespace kilolux

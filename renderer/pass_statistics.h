@@ -12,6 +12,7 @@
 
 namespace kilolux {
 
+// Fills featuresOn and featuresOff, with the reason why each of the latter is off.
 void describeFeatures(const gpu::SpecValues& features, FrameStatistics& statistics);
 
 // Milliseconds of a frame's passes, each name once.
@@ -23,6 +24,7 @@ FrameTimes frameTimes(const gpu::PassTimes& times, const std::vector<std::size_t
 void describePasses(const std::deque<FrameTimes>& frames, const std::vector<std::string_view>& lighting,
                     FrameStatistics& statistics);
 
+// Fills gpuMemory, in the order in which the causes first asked for some, and the peak of all of it.
 void describeMemory(const gpu::MemoryAllocator& memory, FrameStatistics& statistics);
 
 // Milliseconds since the process was started, by the kernel's account; 0 where it has none.

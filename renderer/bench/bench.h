@@ -137,7 +137,7 @@ std::optional<Error> checkScenes(const BenchPlan& plan);
 // Errors: no usable device, a scene that cannot be read. A method that cannot run tells so in its result.
 Result<BenchResult> runBench(const BenchPlan& plan, const OnProgress& progress);
 
-nlohmann::ordered_json benchJson(const BenchResult& result);
+nlohmann::ordered_json benchJson(const BenchResult& result); // bench.json: plan, points, times, ratios
 
 // One self-contained page: no links to other files or sites.
 std::string benchHtml(const BenchResult& result);

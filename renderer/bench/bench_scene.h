@@ -30,6 +30,8 @@ class SceneBench {
     // The same of an edited scene, told apart by its tag.
     Result<Reference> reference(const Scene& edited, const std::string& tag, const std::string& method) const;
 
+    // `rgb` after `frame` frames, linear and not exposed, 3 values a pixel; `flipMap` gets the FLIP of each
+    // pixel.
     BenchPoint compare(const Reference& reference, const std::vector<float>& rgb, int frame,
                        std::vector<float>* flipMap = nullptr) const;
 

@@ -15,7 +15,7 @@ namespace kilolux {
 // A picture of one channel, row by row.
 struct LightPicture {
     int width = 0, height = 0;
-    std::vector<float> texels;
+    std::vector<float> texels; // width * height
 
     // Bilinear as a sampler does it, but in double; clamped, or repeated.
     double clamped(const glm::dvec2& uv) const;
@@ -50,8 +50,8 @@ struct SourcePicture {
         std::vector<std::uint64_t> texels; // 4 halves
     };
     std::vector<Level> levels; // halved down to one texel
-    std::vector<float> warp;
-    glm::dvec3 mean{0.0};
+    std::vector<float> warp;   // KX_WARP_FLOATS of lights/picture.glsl, which says how they lie
+    glm::dvec3 mean{0.0};      // of all texels, by channel
 
     // Linear over texels and levels as a sampler does it, but in double.
     glm::dvec3 lookup(const glm::dvec2& uv, double level) const;
