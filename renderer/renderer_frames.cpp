@@ -159,6 +159,54 @@ bool Renderer::Impl::submitFrame(gpu::Commands& commands, FrameContext& context)
     }
 }
 
+void Renderer::Impl::decideUsedFeatures() {
+    used = gpuScene->features();
+    if (options.allFeatures) {
+        for (std::uint32_t feature = 0; feature < shared::FEATURE_COUNT; ++feature)
+            used[feature] = 1;
+        used[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
+    }
+    if (!options.settings.fill) used[shared::FEATURE_FILL] = 0;
+    used.insert(features.begin(), features.end());
+}
+
+// What a finished frame came to, and what the next one finds.
+void Renderer::Impl::finishFrame() {
+    const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
+    for (std::size_t i = 0; i < counted.size(); ++i)
+        counted[i] += counts[i];
+    if (constants.grid.enabled) gridUse = grid->finishFrame();
+    frameStands = !constants.grid.enabled || gridUse.indices <= gridUse.capacity;
+    chosenFrom = lists ? &lists->previous() : nullptr;
+    if (lists && plan.writeLists) lists->turn();
+    historyBegins = !historyReset.empty();
+    if (historyBegins) lastHistoryReset = historyReset;
+    historyReset.clear();
+    ++meanFrames;
+    ++framesRun;
+}
+
+namespace {
+
+// Buffers of what stands in for a frame's light; empty where nothing does.
+struct ReplacedLight {
+    ReplacedLight(gpu::Device& device, const LitTexels& lit)
+        : diffuse(of(device, lit.diffuse)), specular(of(device, lit.specular)) {}
+
+    gpu::Buffer diffuse, specular;
+
+  private:
+    static gpu::Buffer of(gpu::Device& device, const std::vector<float>& texels) {
+        if (texels.empty()) return {};
+        gpu::Buffer buffer(device, {"replaced light", texels.size() * sizeof(float),
+                                    VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryUse::HostWrite, "other"});
+        buffer.upload(texels);
+        return buffer;
+    }
+};
+
+} // namespace
+
 void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes) {
     const double timeS = options.settings.timeS + index * options.settings.timeStepS;
     updateScene(timeS);
@@ -182,32 +230,15 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
                        index + 1 == std::uint32_t(options.frames);
     plan.writeLists = !(frozen(index) && options.settings.freezeLists);
 
-    used = gpuScene->features();
-    if (options.allFeatures) {
-        for (std::uint32_t feature = 0; feature < shared::FEATURE_COUNT; ++feature)
-            used[feature] = 1;
-        used[shared::CHOICE_LIGHTS_IN_UNIFORM] = 0; // texel buffers hold any number
-    }
-    if (!options.settings.fill) used[shared::FEATURE_FILL] = 0;
-    used.insert(features.begin(), features.end());
+    decideUsedFeatures();
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
     if (rayList) commands.fillBuffer(rayList->heads, 0);
     FrameContext context{commands, *gpuScene, *targets,    frameBuffer, constants,    counterBuffer,
                          *grid,    used,      lists.get(), &noise,      rayList.get()};
-    gpu::Buffer replaced[2];
-    if (options.replaceLit) {
-        const LitTexels lit = options.replaceLit(int(index));
-        for (int i = 0; i < 2 && !lit.diffuse.empty(); ++i) {
-            const auto bytes = std::as_bytes(std::span(i == 0 ? lit.diffuse : lit.specular));
-            replaced[i] =
-                gpu::Buffer(device, {"replaced light", bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                     gpu::MemoryUse::HostWrite, "other"});
-            replaced[i].upload(bytes);
-        }
-        context.replacedDiffuse = replaced[0] ? &replaced[0] : nullptr;
-        context.replacedSpecular = replaced[1] ? &replaced[1] : nullptr;
-    }
+    const ReplacedLight replaced(device, options.replaceLit ? options.replaceLit(int(index)) : LitTexels{});
+    context.replacedDiffuse = replaced.diffuse ? &replaced.diffuse : nullptr;
+    context.replacedSpecular = replaced.specular ? &replaced.specular : nullptr;
     legend =
         viewLegend(plan.view, double(constants.exposure), kDepthMiddle * sceneExtentM, options.viewRange);
     if (outputView) commands.captureAfter(outputView->pass);
@@ -224,18 +255,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     }
     takePassOutput(commands);
 
-    const std::vector<std::uint32_t> counts = counterBuffer.downloadAs<std::uint32_t>();
-    for (std::size_t i = 0; i < counted.size(); ++i)
-        counted[i] += counts[i];
-    if (constants.grid.enabled) gridUse = grid->finishFrame();
-    frameStands = !constants.grid.enabled || gridUse.indices <= gridUse.capacity;
-    chosenFrom = lists ? &lists->previous() : nullptr;
-    if (lists && plan.writeLists) lists->turn();
-    historyBegins = !historyReset.empty();
-    if (historyBegins) lastHistoryReset = historyReset;
-    historyReset.clear();
-    ++meanFrames;
-    ++framesRun;
+    finishFrame();
 }
 
 // CPU drivers compile at the first dispatch. A frame of one tile makes them do it apart from the work, so

@@ -35,7 +35,9 @@ struct Renderer::Impl {
 
     // --- renderer_frames.cpp
     void runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::PassTimes& passTimes);
+    void decideUsedFeatures();
     bool submitFrame(gpu::Commands& commands, FrameContext& context); // false: given up
+    void finishFrame();
     void compilePipelines();
     Picture readPicture() const;
 

@@ -201,6 +201,44 @@ bool isImage(VkDescriptorType type) {
     return type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER || type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
+// Points `write` to what is bound, kept in `data`, and declares its use. False: it is of another kind than
+// the slot.
+bool describe(const ShaderBinding& slot, const Binding& bound, Commands& commands, Usage usage,
+              PassResources& resources, DescriptorWrite& data, VkWriteDescriptorSet& write) {
+    if (const Image* image = bound.image(); image && isImage(slot.type)) {
+        const bool sampled = slot.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        if (bound.mipLevel() >= 0) {
+            commands.use(*image, std::uint32_t(bound.mipLevel()), usage);
+            data.image.imageView = image->mipView(std::uint32_t(bound.mipLevel()));
+        } else {
+            commands.use(*image, usage);
+            data.image.imageView = bound.isSecond() ? image->secondView()
+                                   : sampled        ? image->view()
+                                                    : image->mipView(0);
+        }
+        data.image.sampler = sampled ? resources.sampler(bound.sampler()) : VK_NULL_HANDLE;
+        data.image.imageLayout = sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
+        write.pImageInfo = &data.image;
+        return true;
+    }
+    if (const Buffer* buffer = bound.buffer(); buffer && !isImage(slot.type)) {
+        commands.use(*buffer, usage);
+        data.buffer = {buffer->handle(), 0, VK_WHOLE_SIZE};
+        data.texels = buffer->texelView();
+        write.pBufferInfo = &data.buffer;
+        write.pTexelBufferView = &data.texels;
+        return !isTexelBuffer(slot.type) || data.texels;
+    }
+    if (const AccelerationStructure* structure = bound.accelerationStructure()) {
+        data.structure = structure->handle();
+        data.structures.accelerationStructureCount = 1;
+        data.structures.pAccelerationStructures = &data.structure;
+        write.pNext = &data.structures;
+        return slot.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
+    }
+    return false;
+}
+
 } // namespace
 
 VkDescriptorSet PassBase::prepare(Commands& commands, const Bindings& bindings) {
@@ -221,45 +259,12 @@ VkDescriptorSet PassBase::prepare(Commands& commands, const Bindings& bindings) 
             dummy = resources_.dummy(slot);
             bound = &*dummy;
         }
-        const Usage usage = usageOf(slot, graphics);
-        DescriptorWrite& data = storage[i];
         VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
         write.dstSet = set;
         write.dstBinding = slot.binding;
         write.descriptorCount = 1;
         write.descriptorType = slot.type;
-        bool matches = false;
-        if (const Image* image = bound->image(); image && isImage(slot.type)) {
-            matches = true;
-            const bool sampled = slot.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-            if (bound->mipLevel() >= 0) {
-                commands.use(*image, std::uint32_t(bound->mipLevel()), usage);
-                data.image.imageView = image->mipView(std::uint32_t(bound->mipLevel()));
-            } else {
-                commands.use(*image, usage);
-                data.image.imageView = bound->isSecond() ? image->secondView()
-                                       : sampled         ? image->view()
-                                                         : image->mipView(0);
-            }
-            data.image.sampler = sampled ? resources_.sampler(bound->sampler()) : VK_NULL_HANDLE;
-            data.image.imageLayout =
-                sampled ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL;
-            write.pImageInfo = &data.image;
-        } else if (const Buffer* buffer = bound->buffer(); buffer && !isImage(slot.type)) {
-            commands.use(*buffer, usage);
-            data.buffer = {buffer->handle(), 0, VK_WHOLE_SIZE};
-            data.texels = buffer->texelView();
-            matches = !isTexelBuffer(slot.type) || data.texels;
-            write.pBufferInfo = &data.buffer;
-            write.pTexelBufferView = &data.texels;
-        } else if (const AccelerationStructure* structure = bound->accelerationStructure()) {
-            matches = slot.type == VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
-            data.structure = structure->handle();
-            data.structures.accelerationStructureCount = 1;
-            data.structures.pAccelerationStructures = &data.structure;
-            write.pNext = &data.structures;
-        }
-        if (!matches) {
+        if (!describe(slot, *bound, commands, usageOf(slot, graphics), resources_, storage[i], write)) {
             failContract(
                 fmt::format("pass '{}': what is bound to '{}' is of another kind", name_, slot.name));
         }
