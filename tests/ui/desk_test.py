@@ -4,15 +4,10 @@ import json
 import os
 import subprocess
 
-from window_case import WindowCase, gltf_json, main
+from window_case import WindowCase, gltf_json, main, read
 from window_driver import MIDDLE, RIGHT, WHEEL_UP, wait_for
 
 CTRL, SHIFT, ALT = "Control_L", "Shift_L", "Alt_L"
-
-
-def read(path):
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def exposure(path):

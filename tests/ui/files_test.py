@@ -11,16 +11,11 @@ import unittest
 import zlib
 
 import light_scenes
-from window_case import ROOT, WindowCase, gltf_json, main
+from window_case import ROOT, WindowCase, gltf_json, main, read
 from window_driver import LEFT, wait_for
 from x_messages import XMessages
 
 CTRL = "Control_L"
-
-
-def read(path):
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def png(side, shade):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Menus, pickers, switches and keys of the window, and what they change in pixels: hands_test.py PROGRAM [arguments]"""
-from lights_test import LightCase
+from light_case import LightCase
 from window_case import gltf_json, main
 from window_driver import RIGHT, wait_for
 

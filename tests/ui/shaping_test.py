@@ -8,7 +8,7 @@ import os
 
 import light_scenes
 import window_case
-from lights_test import CTRL, LightCase
+from light_case import CTRL, LightCase
 
 # Light, then its handles in files' words.
 HANDLES = {

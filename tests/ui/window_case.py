@@ -17,10 +17,15 @@ from window_driver import Screen, Window
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
+def read(path):
+    """The bytes of a file."""
+    with open(path, "rb") as file:
+        return file.read()
+
+
 def gltf_json(path):
     """The JSON of a .glb or .gltf file."""
-    with open(path, "rb") as file:
-        data = file.read()
+    data = read(path)
     if data[:4] != b"glTF":
         return json.loads(data)
     (length,) = struct.unpack("<I", data[12:16])
