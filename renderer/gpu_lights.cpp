@@ -1,11 +1,13 @@
 // Light records, see gpu_lights.h.
 #include "renderer/gpu_lights.h"
 
+#include "renderer/document/light_shapes.h"
 #include "renderer/document/light_units.h"
 #include "renderer/dome_maps.h"
 #include "renderer/light_shaping.h"
 #include "renderer/lights_cpp/lights_f64.h"
 #include "renderer/source_picture.h"
+#include "shaders/shared/light_types.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,37 +19,13 @@ namespace {
 
 shared::uint typeCode(LightType type) {
     switch (type) {
-    case LightType::Directional:
-        return shared::LIGHT_DIRECTIONAL;
-    case LightType::Sphere:
-        return shared::LIGHT_SPHERE;
-    case LightType::Spot:
-        return shared::LIGHT_SPOT;
-    case LightType::Tube:
-        return shared::LIGHT_TUBE;
-    case LightType::Rect:
-        return shared::LIGHT_RECT;
-    case LightType::Disk:
-        return shared::LIGHT_DISK;
+#define KILOLUX_TYPE(UPPER, Name, place)                                                                     \
+    case LightType::Name:                                                                                    \
+        return shared::LIGHT_##UPPER;
+        KX_LIGHT_TYPES(KILOLUX_TYPE)
+#undef KILOLUX_TYPE
     }
     return shared::LIGHT_SPHERE;
-}
-
-glm::vec2 sizeOf(const LightDef& def) {
-    switch (def.type) {
-    case LightType::Directional:
-        return {float(std::tan(0.5 * def.angularDiameterRad)), 0.0f};
-    case LightType::Sphere:
-    case LightType::Spot:
-        return {float(def.radiusM), 0.0f};
-    case LightType::Tube:
-        return {float(def.radiusM), float(0.5 * def.lengthM)};
-    case LightType::Rect:
-        return {float(0.5 * def.widthM), float(0.5 * def.heightM)};
-    case LightType::Disk:
-        return {float(0.5 * def.widthM), 0.0f};
-    }
-    return {0.0f, 0.0f};
 }
 
 glm::vec2 shapingOf(const LightDef& def) {
@@ -56,20 +34,6 @@ glm::vec2 shapingOf(const LightDef& def) {
     const double outer = std::cos(def.outerConeRad);
     const double scale = 1.0 / std::max(0.001, std::cos(def.innerConeRad) - outer);
     return {float(scale), float(-outer * scale)};
-}
-
-// Half of the source's largest extent, for distances that count from its surface.
-double extentM(const LightDef& def) {
-    switch (def.type) {
-    case LightType::Tube:
-        return 0.5 * def.lengthM + def.radiusM;
-    case LightType::Rect:
-        return 0.5 * std::hypot(def.widthM, def.heightM);
-    case LightType::Disk:
-        return 0.5 * def.widthM;
-    default:
-        return def.radiusM;
-    }
 }
 
 // A light of numbers that are none is off: files can hold them, and one would spread over the whole picture.
@@ -96,7 +60,7 @@ shared::LightHot makeHot(const LightDef& def, const LightNode& light, const glm:
     hot.tangentOct = f64::packOct16(axis(0, {1, 0, 0}));
     hot.intensity = glm::vec3(emittedColor(def) * baseIntensity(def));
     hot.typeFlags = typeCode(def.type) | (light.muted ? shared::LIGHT_FLAG_MUTED : 0u);
-    hot.sizeM = sizeOf(def);
+    hot.sizeM = glm::vec2(shapeOf(def.type).halfSizes(def));
     hot.shaping = shapingOf(def);
     if (!isSound(hot))
         hot = {.dirWs = {0, 0, -1}, .typeFlags = typeCode(def.type) | shared::LIGHT_FLAG_MUTED};
@@ -178,7 +142,8 @@ DerivedRange deriveRange(const LightDef& def, double exposureEv100) {
     const double limitLux = kRangeShare * greyLux;
     const double candela = luminanceOf(emittedColor(def) * pictureMean(def)) * baseIntensity(def);
     DerivedRange range;
-    range.rangeM = std::max(std::sqrt(std::max(candela, 0.0) / limitLux) + extentM(def), 1e-3);
+    range.rangeM =
+        std::max(std::sqrt(std::max(candela, 0.0) / limitLux) + shapeOf(def.type).extentM(def), 1e-3);
     range.lostLux = limitLux;
     return range;
 }

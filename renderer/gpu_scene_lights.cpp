@@ -153,19 +153,14 @@ void GpuScene::uploadDome(const std::shared_ptr<const DomeMaps>& dome) {
 }
 
 void GpuScene::decideLightFeatures() {
-    constexpr std::array<std::pair<std::uint32_t, int>, 6> kFeatureOfType{
-        {{LIGHT_DIRECTIONAL, FEATURE_DIRECTIONAL_LIGHTS},
-         {LIGHT_SPHERE, FEATURE_SPHERE_LIGHTS},
-         {LIGHT_SPOT, FEATURE_SPOT_LIGHTS},
-         {LIGHT_TUBE, FEATURE_TUBE_LIGHTS},
-         {LIGHT_RECT, FEATURE_RECT_LIGHTS},
-         {LIGHT_DISK, FEATURE_DISK_LIGHTS}}};
-    for (const auto& [type, feature] : kFeatureOfType) {
-        features_[std::uint32_t(feature)] =
-            std::any_of(slots_.hot().begin(), slots_.hot().end(), [type = type](const LightHot& hot) {
-                return !(hot.typeFlags & LIGHT_FLAG_DEAD) && (hot.typeFlags & LIGHT_TYPE_MASK) == type;
-            });
-    }
+    const auto anyOfType = [&](std::uint32_t type) {
+        return std::any_of(slots_.hot().begin(), slots_.hot().end(), [type](const LightHot& hot) {
+            return !(hot.typeFlags & LIGHT_FLAG_DEAD) && (hot.typeFlags & LIGHT_TYPE_MASK) == type;
+        });
+    };
+#define KILOLUX_TYPE(UPPER, Name, place) features_[FEATURE_##UPPER##_LIGHTS] = anyOfType(LIGHT_##UPPER);
+    KX_LIGHT_TYPES(KILOLUX_TYPE)
+#undef KILOLUX_TYPE
     const auto anyShaping = [&](auto&& has) {
         return std::any_of(slots_.shapings().begin(), slots_.shapings().end(), has);
     };

@@ -2,6 +2,7 @@
 #include "renderer/light_shaping.h"
 
 #include "renderer/document/ies_profile.h"
+#include "renderer/document/light_shapes.h"
 #include "renderer/document/light_units.h"
 #include "renderer/document/made_once.h"
 #include "renderer/source_picture.h"
@@ -44,24 +45,16 @@ double square(double x) {
 
 // The bare light's intensity at a vertical angle over that along its axis; tubes apart.
 double ownDistribution(const LightDef& def, double cosine) {
-    switch (def.type) {
-    case LightType::Rect:
-    case LightType::Disk:
-        return std::max(cosine, 0.0);
-    case LightType::Spot: {
-        const double outer = std::cos(def.outerConeRad);
-        return square(
-            std::clamp((cosine - outer) / std::max(0.001, std::cos(def.innerConeRad) - outer), 0.0, 1.0));
-    }
-    default:
-        return 1.0;
-    }
+    if (shapeOf(def.type).isFlat) return std::max(cosine, 0.0);
+    if (def.type != LightType::Spot) return 1.0;
+    const double outer = std::cos(def.outerConeRad);
+    return square(
+        std::clamp((cosine - outer) / std::max(0.001, std::cos(def.innerConeRad) - outer), 0.0, 1.0));
 }
 
 // Flux over intensity.
 double profileSr(const LightProfile& profile, const LightDef& def) {
-    const bool shape = def.iesUse == IesUse::Shape,
-               flat = def.type == LightType::Rect || def.type == LightType::Disk;
+    const bool shape = def.iesUse == IesUse::Shape, flat = shapeOf(def.type).isFlat;
     double sum = 0.0;
     for (int row = 0; row < kProfileRows; ++row) {
         const double cosine = std::cos(verticalRad(row));

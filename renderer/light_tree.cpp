@@ -1,5 +1,6 @@
 #include "renderer/light_tree.h"
 
+#include "renderer/document/light_shapes.h"
 #include "renderer/lights_cpp/lights_f64.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ LightCone emissionCone(const LightHot& hot) {
     if (type == LIGHT_DOME) return {{0.0, 0.0, 1.0}, kPi, 0.0};
     const glm::dvec3 axis = glm::normalize(glm::dvec3(hot.dirWs));
     if (type == LIGHT_DIRECTIONAL) return {axis, std::atan(double(hot.sizeM.x)), 0.0};
-    if (type == LIGHT_RECT || type == LIGHT_DISK) return {axis, 0.0, kPi / 2.0};
+    if (shapeOf(LightType(type)).isFlat) return {axis, 0.0, kPi / 2.0};
     // A photometric profile may shine to where a cone does not.
     const bool shaped = hot.typeFlags >> LIGHT_SHAPING_SHIFT != 0u;
     if (type == LIGHT_SPOT && !shaped && hot.shaping.x > 0.0f) {

@@ -21,26 +21,23 @@ struct FeatureText {
     std::string_view whyOff;
 };
 
-constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{{
-    {shared::FEATURE_ALPHA_MASK, "AlphaMask", "no material tests alpha"},
-    {shared::FEATURE_TEXTURES, "Textures", "no material has a texture"},
-    {shared::FEATURE_DIRECTIONAL_LIGHTS, "DirectionalLights", "no such light"},
-    {shared::FEATURE_SPHERE_LIGHTS, "SphereLights", "no such light"},
-    {shared::FEATURE_SPOT_LIGHTS, "SpotLights", "no such light"},
-    {shared::FEATURE_TUBE_LIGHTS, "TubeLights", "no such light"},
-    {shared::FEATURE_RECT_LIGHTS, "RectLights", "no such light"},
-    {shared::FEATURE_DISK_LIGHTS, "DiskLights", "no such light"},
-    {shared::FEATURE_MOVING_INSTANCES, "MovingInstances", "nothing moves"},
-    {shared::FEATURE_BARN_DOORS, "BarnDoors", "no rectangle light has any"},
-    {shared::FEATURE_IES_PROFILES, "IesProfiles", "no light has one"},
-    {shared::FEATURE_LIGHT_FUNCTIONS, "LightFunctions", "no light has one"},
-    {shared::FEATURE_LIGHT_CHANNELS, "LightChannels", "every light reaches every mesh"},
-    {shared::FEATURE_DOME, "Dome", "no light from all around"},
-    {shared::FEATURE_BACKGROUND, "Background", "no dome is seen behind the scene"},
-    {shared::FEATURE_FILL, "Fill", "no plain ambient light"},
-    {shared::FEATURE_CHANNEL_SHADOWS, "ChannelShadows", "every mesh casts every light's shadow"},
-    {shared::FEATURE_TEXTURED_LIGHTS, "TexturedLights", "no rectangle light has a picture"},
-}};
+constexpr std::array<FeatureText, shared::FEATURE_COUNT> kFeatures{
+    {{shared::FEATURE_ALPHA_MASK, "AlphaMask", "no material tests alpha"},
+     {shared::FEATURE_TEXTURES, "Textures", "no material has a texture"},
+     {shared::FEATURE_MOVING_INSTANCES, "MovingInstances", "nothing moves"},
+     {shared::FEATURE_BARN_DOORS, "BarnDoors", "no rectangle light has any"},
+     {shared::FEATURE_IES_PROFILES, "IesProfiles", "no light has one"},
+     {shared::FEATURE_LIGHT_FUNCTIONS, "LightFunctions", "no light has one"},
+     {shared::FEATURE_LIGHT_CHANNELS, "LightChannels", "every light reaches every mesh"},
+     {shared::FEATURE_DOME, "Dome", "no light from all around"},
+     {shared::FEATURE_BACKGROUND, "Background", "no dome is seen behind the scene"},
+     {shared::FEATURE_FILL, "Fill", "no plain ambient light"},
+     {shared::FEATURE_CHANNEL_SHADOWS, "ChannelShadows", "every mesh casts every light's shadow"},
+     {shared::FEATURE_TEXTURED_LIGHTS, "TexturedLights", "no rectangle light has a picture"},
+#define KILOLUX_TYPE(UPPER, Name, place) {shared::FEATURE_##UPPER##_LIGHTS, #Name "Lights", "no such light"},
+     KX_LIGHT_TYPES(KILOLUX_TYPE)
+#undef KILOLUX_TYPE
+    }};
 
 double percentile(std::vector<double> values, double share) {
     if (values.empty()) return 0.0;

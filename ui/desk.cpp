@@ -1,6 +1,7 @@
 // What panels do to the desk, see desk.h.
 #include "ui/desk.h"
 
+#include "renderer/document/light_shapes.h"
 #include "ui/file_tasks.h"
 #include "ui/light_actions.h"
 #include "ui/light_place.h"
@@ -47,8 +48,8 @@ std::pair<glm::dvec3, double> framedSphere(const Desk& desk) {
     for (const std::uint64_t id : desk.selection) {
         const LightDef& def = defOf(scene, id);
         points.push_back(positionOf(scene, id));
-        // Of a rectangle and a disk its size, of the others their radius; a point gets some surroundings.
-        const bool flat = def.type == LightType::Rect || def.type == LightType::Disk;
+        // Of a flat light its size, of the others their radius; a point gets some surroundings.
+        const bool flat = shapeOf(def.type).isFlat;
         radiusM =
             std::max({radiusM, flat ? std::max(def.widthM, def.heightM) : def.radiusM + def.lengthM, 0.5});
     }

@@ -1,5 +1,6 @@
 #include "ui/light_actions.h"
 
+#include "renderer/document/light_shapes.h"
 #include "ui/change_builder.h"
 #include "ui/light_place.h"
 
@@ -21,27 +22,13 @@ glm::dquat lookingAlong(const glm::dvec3& dir) {
 // How far the light's centre hangs off a surface that it is put on.
 double clearanceM(const LightDef& def) {
     constexpr double kGapM = 0.02; // past the depth errors of a coarse floor
-    return def.type == LightType::Rect || def.type == LightType::Disk ? kGapM : def.radiusM + 0.1;
+    return shapeOf(def.type).isFlat ? kGapM : def.radiusM + 0.1;
 }
 
 } // namespace
 
 std::string_view typeName(LightType type) {
-    switch (type) {
-    case LightType::Directional:
-        return "Directional light";
-    case LightType::Sphere:
-        return "Sphere light";
-    case LightType::Spot:
-        return "Spot light";
-    case LightType::Tube:
-        return "Tube light";
-    case LightType::Rect:
-        return "Rectangle light";
-    case LightType::Disk:
-        return "Disk light";
-    }
-    return "Light";
+    return shapeOf(type).title;
 }
 
 std::string countedLights(std::size_t count) {
@@ -73,38 +60,7 @@ LightDef defaultLight(LightType type) {
     def.temperatureK = 3000.0;
     def.unit = LightUnit::Lumen;
     def.intensity = 800.0; // a household bulb
-    switch (type) {
-    case LightType::Directional:
-        def.unit = LightUnit::Lux;
-        def.intensity = 1000.0; // an overcast day
-        def.temperatureK = 5500.0;
-        def.angularDiameterRad = glm::radians(0.53);
-        break;
-    case LightType::Sphere:
-        def.radiusM = 0.04;
-        break;
-    case LightType::Spot:
-        def.radiusM = 0.02;
-        def.innerConeRad = glm::radians(20.0);
-        def.outerConeRad = glm::radians(30.0);
-        break;
-    case LightType::Tube:
-        def.intensity = 2000.0;
-        def.radiusM = 0.013; // T8
-        def.lengthM = 1.2;
-        def.temperatureK = 4000.0;
-        break;
-    case LightType::Rect:
-        def.intensity = 3000.0;
-        def.temperatureK = 4000.0;
-        def.widthM = 1.0;
-        def.heightM = 0.5;
-        break;
-    case LightType::Disk:
-        def.intensity = 1500.0;
-        def.widthM = 0.3;
-        break;
-    }
+    shapeOf(type).begin(def);
     return def;
 }
 

@@ -1,5 +1,6 @@
 #include "ui/luminaires.h"
 
+#include "renderer/document/light_shapes.h"
 #include "ui/change_builder.h"
 #include "ui/light_fields.h"
 
@@ -41,7 +42,7 @@ Result<Edits> editsForLuminaire(const Scene& scene, std::span<const std::uint64_
         if (edits) builder.take(edits.value());
         return edits;
     };
-    const bool isFlat = luminaire.type == Rect || luminaire.type == Disk;
+    const bool isFlat = shapeOf(luminaire.type).isFlat;
     std::vector<std::pair<const char*, EditValue>> values = {{"type", luminaire.type}};
     if (!isFlat) values.emplace_back("radiusM", luminaire.radiusM);
     if (luminaire.type == Tube) values.emplace_back("lengthM", luminaire.lengthM);

@@ -1,5 +1,7 @@
 #include "ui/outline_geometry.h"
 
+#include "renderer/document/light_shapes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -23,24 +25,6 @@ int sidesOf(double radiusPx) {
 glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
     const double length = glm::length(v);
     return length > 0.0 ? v / length : otherwise;
-}
-
-// Half of what the source measures across, metres.
-double extentOf(const LightDef& def) {
-    switch (def.type) {
-    case LightType::Rect:
-        return 0.5 * std::hypot(def.widthM, def.heightM);
-    case LightType::Disk:
-        return 0.5 * def.widthM;
-    case LightType::Tube:
-        return 0.5 * def.lengthM + def.radiusM;
-    case LightType::Directional:
-        return 0.0;
-    case LightType::Sphere:
-    case LightType::Spot:
-        break;
-    }
-    return def.radiusM;
 }
 
 } // namespace
@@ -167,8 +151,8 @@ void OutlineSet::build(const Scene& scene, const Viewport& viewport, double scal
         outline.light = int(i);
         outline.centerPx = point.px;
         outline.depthM = point.depthM;
-        const double extentPx =
-            extentOf(scene.lightDefs[std::size_t(light.def)]) * map.pxPerMetre(point.depthM);
+        const LightDef& def = scene.lightDefs[std::size_t(light.def)];
+        const double extentPx = shapeOf(def.type).extentM(def) * map.pxPerMetre(point.depthM);
         outline.radiusPx = std::max(extentPx, kSunRadiusPx * scale);
         const double margin = outline.radiusPx + kSunStemPx * scale;
         if (point.px.x < rect.x - margin || point.px.x > rect.x + rect.width + margin ||

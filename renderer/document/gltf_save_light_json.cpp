@@ -1,6 +1,7 @@
 #include "renderer/document/gltf_save_light_json.h"
 
 #include "renderer/document/light_properties.h"
+#include "renderer/document/light_shapes.h"
 #include "renderer/document/light_units.h"
 
 #include <cmath>
@@ -9,30 +10,13 @@ namespace kilolux::gltf {
 
 namespace {
 
-const char* nativeWord(LightType type) {
-    switch (type) {
-    case LightType::Directional:
-        return "directional";
-    case LightType::Spot:
-        return "spot";
-    case LightType::Sphere:
-    case LightType::Tube:
-        return "point";
-    case LightType::Rect:
-    case LightType::Disk:
-        break;
-    }
-    return wordOf(type);
-}
-
 LightUnit nativeUnit(LightExtension extension, LightType type) {
     if (extension == LightExtension::Area) return LightUnit::Nit;
     return type == LightType::Directional ? LightUnit::Lux : LightUnit::Candela;
 }
 
 bool holds(LightExtension extension, LightType type) {
-    const bool isFlat = type == LightType::Rect || type == LightType::Disk;
-    return extension == (isFlat ? LightExtension::Area : LightExtension::Punctual);
+    return extension == (shapeOf(type).isFlat ? LightExtension::Area : LightExtension::Punctual);
 }
 
 bool sameShape(const LightDef& a, const LightDef& b) {
@@ -72,7 +56,7 @@ void setRange(Json& json, const LightDef* before, const LightDef& def) {
 
 void setPunctual(Json& json, const LightDef* before, const LightDef& def) {
     const bool retyped = !before || before->type != def.type;
-    if (retyped) setMember(json, "type", nativeWord(def.type));
+    if (retyped) setMember(json, "type", shapeOf(def.type).nativeWord);
     const bool isSpot = json["type"] == "spot";
     if (!isSpot) {
         if (retyped) json.erase("spot");
@@ -92,7 +76,7 @@ void setPunctual(Json& json, const LightDef* before, const LightDef& def) {
 void setArea(Json& json, const LightDef* before, const LightDef& def, double nodeScale) {
     const bool retyped = !before || before->type != def.type;
     const bool isRect = def.type == LightType::Rect;
-    if (retyped) setMember(json, "type", nativeWord(def.type));
+    if (retyped) setMember(json, "type", shapeOf(def.type).nativeWord);
     if (retyped && !isRect) json.erase("rect");
     const double side = isRect ? def.heightM : def.widthM;
     // Against what the file's own size gives at this scale, which may have changed as well.
@@ -159,8 +143,7 @@ void fitDoors(Json& extras, const LightDef& now, const LightDef& def) {
 
 LightExtension extensionFor(const LightDef& def) {
     if (def.type == LightType::Sphere && emitsAsProfile(def)) return LightExtension::Ies;
-    return def.type == LightType::Rect || def.type == LightType::Disk ? LightExtension::Area
-                                                                      : LightExtension::Punctual;
+    return shapeOf(def.type).isFlat ? LightExtension::Area : LightExtension::Punctual;
 }
 
 bool emitsAsProfile(const LightDef& def) {

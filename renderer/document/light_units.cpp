@@ -1,6 +1,7 @@
 #include "renderer/document/light_units.h"
 
 #include "renderer/document/ies_profile.h"
+#include "renderer/document/light_shapes.h"
 #include "renderer/document/made_once.h"
 
 #include <algorithm>
@@ -14,48 +15,7 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kEv100Nit = 0.125; // luminance of EV100 0: L = 2^EV * K / S with K = 12.5, S = 100
 
 bool hasArea(const LightDef& def) {
-    switch (def.type) {
-    case LightType::Directional:
-        return def.angularDiameterRad > 0.0;
-    case LightType::Sphere:
-    case LightType::Spot:
-    case LightType::Tube:
-        return def.radiusM > 0.0;
-    case LightType::Rect:
-        return def.widthM > 0.0 && def.heightM > 0.0;
-    case LightType::Disk:
-        return def.widthM > 0.0;
-    }
-    return false;
-}
-
-// Intensity per luminance: the area seen from the axis, or a directional light's projected solid angle.
-double projectedExtent(const LightDef& def) {
-    switch (def.type) {
-    case LightType::Directional: {
-        const double sine = std::sin(std::min(def.angularDiameterRad * 0.5, kPi / 2.0));
-        return kPi * sine * sine;
-    }
-    case LightType::Sphere:
-    case LightType::Spot:
-        return kPi * def.radiusM * def.radiusM;
-    case LightType::Tube:
-        return 2.0 * def.radiusM * def.lengthM + kPi * def.radiusM * def.radiusM;
-    case LightType::Rect:
-        return def.widthM * def.heightM;
-    case LightType::Disk:
-        return kPi * def.widthM * def.widthM * 0.25;
-    }
-    return 0.0;
-}
-
-// Integral of saturate((c - cosOuter) * scale)^2 over c = cos(angle) from cosOuter to 1.
-double coneIntegral(const LightDef& def) {
-    const double cosInner = std::cos(def.innerConeRad), cosOuter = std::cos(def.outerConeRad);
-    const double width = std::max(0.001, cosInner - cosOuter);
-    const double full = std::min(1.0, cosOuter + width); // from here on the falloff is 1
-    const double rise = (full - cosOuter) / width;
-    return rise * rise * rise * width / 3.0 + (1.0 - full);
+    return shapeOf(def.type).projectedM2(def) > 0.0;
 }
 
 // Of a profile, which has thousands of values, while lights ask every frame.
@@ -72,20 +32,7 @@ ProfileTotals totalsOf(const std::shared_ptr<const IesProfile>& profile) {
 // Flux per candela on the axis.
 double fluxPerCandela(const LightDef& def) {
     if (isShapedByProfile(def)) return totalsOf(def.ies).fluxLm / totalsOf(def.ies).maxCandela;
-    switch (def.type) {
-    case LightType::Directional:
-        return 0.0;
-    case LightType::Sphere:
-        return 4.0 * kPi;
-    case LightType::Spot:
-        return 2.0 * kPi * coneIntegral(def);
-    case LightType::Tube:
-        return kPi * emitterAreaM2(def) / projectedExtent(def);
-    case LightType::Rect:
-    case LightType::Disk:
-        return kPi;
-    }
-    return 0.0;
+    return shapeOf(def.type).fluxPerCandela(def);
 }
 
 double wymanLobe(double x, double center, double inverseBelow, double inverseAbove) {
@@ -125,20 +72,7 @@ bool unitApplies(const LightDef& def, LightUnit unit) {
 }
 
 double emitterAreaM2(const LightDef& def) {
-    const double r = def.radiusM;
-    switch (def.type) {
-    case LightType::Directional:
-        return 0.0;
-    case LightType::Sphere:
-    case LightType::Spot:
-        return 4.0 * kPi * r * r;
-    case LightType::Tube:
-        return 2.0 * kPi * r * def.lengthM + 4.0 * kPi * r * r;
-    case LightType::Rect:
-    case LightType::Disk:
-        return projectedExtent(def);
-    }
-    return 0.0;
+    return shapeOf(def.type).emitterM2(def);
 }
 
 bool usesProfile(const LightDef& def) {
@@ -160,9 +94,9 @@ double baseIntensity(const LightDef& def) {
     case LightUnit::Lux:
         return def.intensity;
     case LightUnit::Nit:
-        return def.intensity * projectedExtent(def);
+        return def.intensity * shapeOf(def.type).projectedM2(def);
     case LightUnit::Ev100:
-        return kEv100Nit * std::exp2(def.intensity) * projectedExtent(def);
+        return kEv100Nit * std::exp2(def.intensity) * shapeOf(def.type).projectedM2(def);
     }
     return 0.0;
 }
@@ -176,9 +110,9 @@ double fromBaseIntensity(const LightDef& def, double baseValue, LightUnit unit) 
     case LightUnit::Lux:
         return baseValue;
     case LightUnit::Nit:
-        return baseValue / projectedExtent(def);
+        return baseValue / shapeOf(def.type).projectedM2(def);
     case LightUnit::Ev100:
-        return std::log2(baseValue / projectedExtent(def) / kEv100Nit);
+        return std::log2(baseValue / shapeOf(def.type).projectedM2(def) / kEv100Nit);
     }
     return 0.0;
 }

@@ -1,9 +1,9 @@
-// One light at one point: the unshadowed integrals, the two estimators of its shadow, and points drawn
-// uniformly from its surface.
+// One light at one point: the unshadowed integrals and the two estimators of its shadow.
 #pragma once
 
 #include "renderer/reference/oracle.h"
 #include "renderer/reference/oracle_light.h"
+#include "renderer/reference/oracle_shape.h"
 
 #include <functional>
 
@@ -17,14 +17,5 @@ using Occlusion = std::function<bool(const glm::dvec3&, double)>;
 OraclePointResult estimateLight(const OracleLight& light, const OraclePoint& point,
                                 const Occlusion& occlusion, Estimator estimator, int samples,
                                 std::uint64_t seed);
-
-// A point drawn uniformly from the part of the light's surface that can face the receiver (rectangle, disk,
-// sphere: exactly that part; tube: all of it, so a point may face away). Directional: a direction.
-struct SourcePoint {
-    glm::dvec3 directionWs; // unit, from the receiver
-    double distanceM;       // infinite for directional lights
-    bool faces;             // the point emits towards the receiver
-};
-SourcePoint sampleSource(const OracleLight& light, const glm::dvec3& receiverWs, double u, double v);
 
 } // namespace kilolux::oracle

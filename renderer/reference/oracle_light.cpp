@@ -6,6 +6,7 @@
 
 #include "renderer/document/ies_profile.h"
 #include "renderer/document/light_units.h"
+#include "renderer/reference/oracle_shape.h"
 #include "renderer/reference/oracle_terms.h"
 
 #include <algorithm>
@@ -16,35 +17,9 @@ namespace kilolux::oracle {
 namespace {
 
 constexpr double kMinConeCosDifference = 0.001; // KHR_lights_punctual's guard for inner = outer
-constexpr double kMinTubeRadiusM = 1e-4;
 
 double square(double x) {
     return x * x;
-}
-
-// Area that the light shows to a viewer on its axis (tube: square to its axis), m2.
-double projectedAreaM2(const OracleLight& light) {
-    switch (light.type) {
-    case LightType::Rect:
-        return 4.0 * light.halfWidthM * light.halfHeightM;
-    case LightType::Tube:
-        return 4.0 * light.radiusM * light.halfLengthM + kPi * square(light.radiusM);
-    default:
-        return kPi * square(light.radiusM);
-    }
-}
-
-// Surface that emits, m2.
-double emittingAreaM2(const OracleLight& light) {
-    switch (light.type) {
-    case LightType::Rect:
-    case LightType::Disk:
-        return projectedAreaM2(light);
-    case LightType::Tube:
-        return 4.0 * kPi * light.radiusM * light.halfLengthM + 4.0 * kPi * square(light.radiusM);
-    default:
-        return 4.0 * kPi * square(light.radiusM);
-    }
 }
 
 double candelaFromLumen(const OracleLight& light, double lumen) {
@@ -106,7 +81,7 @@ namespace {
 double profileFactor(const OracleLight& light, const glm::dvec3& dir) {
     const double value = light.profile->candelaAt(dir) / light.profile->maxCandela();
     if (!light.profileIsShape) return value;
-    if (light.type == LightType::Rect || light.type == LightType::Disk) return value / std::max(-dir.z, 0.05);
+    if (isFlat(light)) return value / std::max(-dir.z, 0.05);
     if (light.type != LightType::Tube) return value;
     const double side = 4.0 * light.radiusM * light.halfLengthM * std::sqrt(1.0 - dir.x * dir.x);
     return value * projectedAreaM2(light) / (side + kPi * square(light.radiusM));
@@ -213,30 +188,13 @@ OracleLight makeLight(const LightDef& def, const glm::dmat4& worldFromNode, std:
     OracleLight light;
     light.type = def.type;
     placeLight(light, worldFromNode);
-    switch (def.type) {
-    case LightType::Directional:
-        light.angularRadiusRad = 0.5 * def.angularDiameterRad;
-        break;
-    case LightType::Tube:
-        light.radiusM = std::max(def.radiusM, kMinTubeRadiusM);
-        light.halfLengthM = 0.5 * def.lengthM;
-        break;
-    case LightType::Rect:
-        light.halfWidthM = 0.5 * def.widthM;
-        light.halfHeightM = 0.5 * def.heightM;
+    takeSize(light, def);
+    if (def.type == LightType::Rect) {
         light.picture = def.sourceImage;
         light.pictureCenterWs = light.centerWs;
         light.pictureHalfM = {light.halfWidthM, light.halfHeightM};
         light.flaps = {flapOf(def, BarnDoorSide::Left), flapOf(def, BarnDoorSide::Right),
                        flapOf(def, BarnDoorSide::Bottom), flapOf(def, BarnDoorSide::Top)};
-        break;
-    case LightType::Disk:
-        light.radiusM = 0.5 * def.widthM;
-        break;
-    case LightType::Sphere:
-    case LightType::Spot:
-        light.radiusM = def.radiusM;
-        break;
     }
     light.cosInner = std::cos(def.innerConeRad);
     light.cosOuter = std::cos(def.outerConeRad);

@@ -2,58 +2,14 @@
 // from the pole: direction(theta) = pole cos(theta) + azimuth sin(theta).
 #include "renderer/reference/oracle_region.h"
 
+#include "renderer/reference/oracle_shape.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace kilolux::oracle {
 
-namespace {
-
 using glm::dvec3;
-
-double sign(double x) {
-    return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0);
-}
-
-// The point of the light, relative to its centre, that lies farthest along `n`. All lights are symmetric
-// about their centre, so its negative is the farthest the other way.
-dvec3 supportPoint(const OracleLight& light, const dvec3& n) {
-    switch (light.type) {
-    case LightType::Rect:
-        return light.xWs * (sign(glm::dot(n, light.xWs)) * light.halfWidthM) +
-               light.yWs * (sign(glm::dot(n, light.yWs)) * light.halfHeightM);
-    case LightType::Disk: {
-        const dvec3 inPlane = n - light.dirWs * glm::dot(n, light.dirWs);
-        const double length = glm::length(inPlane);
-        return length > 0.0 ? inPlane * (light.radiusM / length) : dvec3(0.0);
-    }
-    case LightType::Tube:
-        return light.xWs * (sign(glm::dot(n, light.xWs)) * light.halfLengthM) + n * light.radiusM;
-    case LightType::Directional:
-        return n * std::sin(light.angularRadiusRad); // a ball of that radius at distance 1
-    default:
-        return n * light.radiusM;
-    }
-}
-
-bool receiverSeesSurface(const OracleLight& light, const dvec3& toCenter) {
-    switch (light.type) {
-    case LightType::Directional:
-        return true;
-    case LightType::Rect:
-    case LightType::Disk:
-        return glm::dot(light.dirWs, toCenter) < 0.0;
-    case LightType::Tube: {
-        const double along =
-            std::clamp(glm::dot(-toCenter, light.xWs), -light.halfLengthM, light.halfLengthM);
-        return glm::length(toCenter + light.xWs * along) > light.radiusM;
-    }
-    default:
-        return glm::length(toCenter) > light.radiusM;
-    }
-}
-
-} // namespace
 
 std::optional<SourceRegion> SourceRegion::make(const OracleLight& light, const dvec3& receiverWs,
                                                const dvec3& normalWs) {

@@ -6,12 +6,12 @@
 #include "../shared/features.h"
 #include "../shared/gpu_light.h"
 
-layout(constant_id = FEATURE_DIRECTIONAL_LIGHTS) const bool kDirectionalLights = true;
-layout(constant_id = FEATURE_SPHERE_LIGHTS) const bool kSphereLights = true;
-layout(constant_id = FEATURE_SPOT_LIGHTS) const bool kSpotLights = true;
-layout(constant_id = FEATURE_TUBE_LIGHTS) const bool kTubeLights = true;
-layout(constant_id = FEATURE_RECT_LIGHTS) const bool kRectLights = true;
-layout(constant_id = FEATURE_DISK_LIGHTS) const bool kDiskLights = true;
+#define KX_HAS_LIGHT_TYPES
+#define KX_HAS_LIGHT(UPPER, Name, place) \
+    layout(constant_id = FEATURE_##UPPER##_LIGHTS) const bool k##Name##Lights = true; \
+    const bool KX_HAS_##UPPER = k##Name##Lights;
+KX_LIGHT_TYPES(KX_HAS_LIGHT)
+#undef KX_HAS_LIGHT
 layout(constant_id = FEATURE_DOME) const bool kDome = true;
 layout(constant_id = FEATURE_BARN_DOORS) const bool kBarnDoors = true;
 layout(constant_id = FEATURE_IES_PROFILES) const bool kIesProfiles = true;
@@ -19,12 +19,6 @@ layout(constant_id = FEATURE_LIGHT_FUNCTIONS) const bool kLightFunctions = true;
 layout(constant_id = FEATURE_LIGHT_CHANNELS) const bool kLightChannels = true;
 layout(constant_id = FEATURE_TEXTURED_LIGHTS) const bool kTexturedLights = true;
 layout(constant_id = CHOICE_LIGHTS_IN_UNIFORM) const bool kLightsInUniform = false;
-#define KX_HAS_DIRECTIONAL kDirectionalLights
-#define KX_HAS_SPHERE kSphereLights
-#define KX_HAS_SPOT kSpotLights
-#define KX_HAS_TUBE kTubeLights
-#define KX_HAS_RECT kRectLights
-#define KX_HAS_DISK kDiskLights
 #define KX_HAS_DOME kDome
 #define KX_HAS_BARN_DOORS kBarnDoors
 #define KX_HAS_IES kIesProfiles

@@ -1,9 +1,9 @@
 // One set of functions for every light type; each evaluation has a single call site, the type only chooses
 // what goes in. The includer declares ltcLookup0 and ltcLookup1 (math/ltc.glsl) and lightShapingLookup(place),
 // profileLookup and functionImageLookup (light_filter.glsl), lightPictureLookup and lightWarpLookup (picture.glsl), what
-// dome.glsl names, and may define KX_HAS_DIRECTIONAL, KX_HAS_SPHERE, KX_HAS_SPOT, KX_HAS_TUBE, KX_HAS_RECT, KX_HAS_DISK,
-// KX_HAS_DOME, KX_HAS_BARN_DOORS, KX_HAS_IES, KX_HAS_LIGHT_FUNCTIONS, KX_HAS_LIGHT_CHANNELS and KX_HAS_PICTURES as
-// constant expressions that are false where the scene has no such light.
+// dome.glsl names. It may define KX_HAS_DOME, KX_HAS_BARN_DOORS, KX_HAS_IES, KX_HAS_LIGHT_FUNCTIONS, KX_HAS_LIGHT_CHANNELS
+// and KX_HAS_PICTURES as constant expressions that are false where the scene has no such light; with KX_HAS_LIGHT_TYPES
+// defined it declares KX_HAS_SPHERE and so on for every type itself.
 #ifndef KILOLUX_LIGHTS_LIGHT_GLSL
 #define KILOLUX_LIGHTS_LIGHT_GLSL
 
@@ -22,6 +22,7 @@
 #ifndef KX_HAS_PICTURES
 #define KX_HAS_PICTURES true
 #endif
+#include "../shared/light_types.h"
 #include "directional.glsl"
 #include "disk.glsl"
 #include "dome.glsl"
@@ -34,23 +35,10 @@
 #include "spot.glsl"
 #include "tube.glsl"
 
-#ifndef KX_HAS_DIRECTIONAL
-#define KX_HAS_DIRECTIONAL true
-#endif
-#ifndef KX_HAS_SPHERE
-#define KX_HAS_SPHERE true
-#endif
-#ifndef KX_HAS_SPOT
-#define KX_HAS_SPOT true
-#endif
-#ifndef KX_HAS_TUBE
-#define KX_HAS_TUBE true
-#endif
-#ifndef KX_HAS_RECT
-#define KX_HAS_RECT true
-#endif
-#ifndef KX_HAS_DISK
-#define KX_HAS_DISK true
+#ifndef KX_HAS_LIGHT_TYPES
+#define KX_HAS_LIGHT(UPPER, Name, place) const bool KX_HAS_##UPPER = true;
+KX_LIGHT_TYPES(KX_HAS_LIGHT)
+#undef KX_HAS_LIGHT
 #endif
 #ifndef KX_HAS_DOME
 #define KX_HAS_DOME true

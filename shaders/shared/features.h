@@ -5,28 +5,29 @@
 #ifndef KILOLUX_SHARED_FEATURES_H
 #define KILOLUX_SHARED_FEATURES_H
 #include "base.h"
+#include "light_types.h"
 
 KX_SHARED_BEGIN
 
-const int FEATURE_ALPHA_MASK = 0; // some instance is alpha-tested
-const int FEATURE_TEXTURES = 1;   // some material has a texture
-const int FEATURE_DIRECTIONAL_LIGHTS = 2;
-const int FEATURE_SPHERE_LIGHTS = 3;
-const int FEATURE_SPOT_LIGHTS = 4;
-const int FEATURE_TUBE_LIGHTS = 5;
-const int FEATURE_RECT_LIGHTS = 6;
-const int FEATURE_DISK_LIGHTS = 7;
-const int FEATURE_MOVING_INSTANCES = 8; // some instance may move
-const int FEATURE_BARN_DOORS = 9;       // some rectangle light has flaps
-const int FEATURE_IES_PROFILES = 10;    // some light has a photometric profile
-const int FEATURE_LIGHT_FUNCTIONS = 11; // some light has a light function
-const int FEATURE_LIGHT_CHANNELS = 12;  // some light leaves out some mesh
-const int FEATURE_CHANNEL_SHADOWS = 13; // and shines through it
-const int FEATURE_DOME = 14;            // there is light from all around
-const int FEATURE_BACKGROUND = 15;      // and it is seen behind the scene
-const int FEATURE_FILL = 16;            // there is plain ambient light
-const int FEATURE_TEXTURED_LIGHTS = 17; // some rectangle light has a picture
-const int FEATURE_COUNT = 18;
+const int FEATURE_ALPHA_MASK = 0;       // some instance is alpha-tested
+const int FEATURE_TEXTURES = 1;         // some material has a texture
+const int FEATURE_MOVING_INSTANCES = 2; // some instance may move
+const int FEATURE_BARN_DOORS = 3;       // some rectangle light has flaps
+const int FEATURE_IES_PROFILES = 4;     // some light has a photometric profile
+const int FEATURE_LIGHT_FUNCTIONS = 5;  // some light has a light function
+const int FEATURE_LIGHT_CHANNELS = 6;   // some light leaves out some mesh
+const int FEATURE_CHANNEL_SHADOWS = 7;  // and shines through it
+const int FEATURE_DOME = 8;             // there is light from all around
+const int FEATURE_BACKGROUND = 9;       // and it is seen behind the scene
+const int FEATURE_FILL = 10;            // there is plain ambient light
+const int FEATURE_TEXTURED_LIGHTS = 11; // some rectangle light has a picture
+const int FEATURE_LIGHT_TYPES = 12;     // from here on, by its place in the list: some light is of the type
+#define KX_LIGHT_FEATURE(UPPER, Name, place) const int FEATURE_##UPPER##_LIGHTS = FEATURE_LIGHT_TYPES + place;
+KX_LIGHT_TYPES(KX_LIGHT_FEATURE) // FEATURE_SPHERE_LIGHTS, ...
+#undef KX_LIGHT_FEATURE
+#define KX_LIGHT_ONE(UPPER, Name, place) +1
+const int FEATURE_COUNT = FEATURE_LIGHT_TYPES KX_LIGHT_TYPES(KX_LIGHT_ONE);
+#undef KX_LIGHT_ONE
 
 // Choices of the frame that are specialization constants too, beyond the features.
 const int CHOICE_LIGHTS_IN_UNIFORM = 32; // at most 1,024 slots, which a uniform block holds

@@ -41,9 +41,9 @@ constexpr Part kParts[] = {{"evaluate", 0, 3},
                            {"sample tint", 37, 3},
                            {"cold", 40, 1}};
 constexpr const char* kTypes[] = {"directional", "sphere", "spot", "tube", "rect", "disk"};
-constexpr int kFeatureOfType[] = {shared::FEATURE_DIRECTIONAL_LIGHTS, shared::FEATURE_SPHERE_LIGHTS,
-                                  shared::FEATURE_SPOT_LIGHTS,        shared::FEATURE_TUBE_LIGHTS,
-                                  shared::FEATURE_RECT_LIGHTS,        shared::FEATURE_DISK_LIGHTS};
+constexpr unsigned featureOf(unsigned type) {
+    return unsigned(shared::FEATURE_LIGHT_TYPES) + type;
+}
 
 // The rows of the shader's output, in float or double, with the lights of the namespace.
 #define KX_ROW(ns, Real, light, c)                                                                           \
@@ -249,9 +249,8 @@ TEST_P(LightsByType, NeededFeaturesAreEnough) {
     const TypeCases made = casesOf(GetParam(), 1500);
     const std::vector<float> all = run(made.lights, made.cases, {});
     gpu::SpecValues needed{{shared::CHOICE_LIGHTS_IN_UNIFORM, 1}};
-    for (std::size_t type = 0; type < std::size(kFeatureOfType); ++type) {
-        needed[std::uint32_t(kFeatureOfType[type])] = type == GetParam();
-    }
+    for (unsigned type = 0; type < std::size(kTypes); ++type)
+        needed[featureOf(type)] = type == GetParam();
     needed[shared::FEATURE_BARN_DOORS] = GetParam() == shared::LIGHT_RECT;
     needed[shared::FEATURE_TEXTURED_LIGHTS] = GetParam() == shared::LIGHT_RECT;
     const std::vector<float> exact = run(made.lights, made.cases, needed);
@@ -266,8 +265,7 @@ TEST_P(LightsByType, NeededFeaturesAreEnough) {
 // Without its feature a type is dark: the constants reach the shader.
 TEST_P(LightsByType, AbsentFeaturesAreDark) {
     const TypeCases made = casesOf(GetParam(), 100);
-    const std::vector<float> device =
-        run(made.lights, made.cases, {{std::uint32_t(kFeatureOfType[GetParam()]), 0}});
+    const std::vector<float> device = run(made.lights, made.cases, {{featureOf(GetParam()), 0}});
     for (std::size_t i = 0; i < made.cases.size(); ++i)
         EXPECT_EQ(device[i * kOutputs + 9], 0.0f) << "sample valid";
 }
