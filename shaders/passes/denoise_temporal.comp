@@ -55,11 +55,16 @@ struct History {
     float weight; // 0: none
 };
 
-void addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return;
+// Whether a texel of the previous frame shows the surface.
+bool showsSurface(ivec2 at, Reprojection r, vec3 geoNormalWs, float cosView) {
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return false;
     uvec4 there = texelFetch(previousSurface, at, 0);
-    if (!sameDepth(surfaceDepthM(there), r.depthM, cosView)) return;
-    if (dot(surfaceGeoNormalWs(there), geoNormalWs) < kSameNormal) return;
+    if (!sameDepth(surfaceDepthM(there), r.depthM, cosView)) return false;
+    return dot(surfaceGeoNormalWs(there), geoNormalWs) >= kSameNormal;
+}
+
+void addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
+    if (!showsSurface(at, r, geoNormalWs, cosView)) return;
     h.diffuse += weight * readHistory(texelFetch(previousDiffuse, at, 0));
     h.specular += weight * readHistory(texelFetch(previousSpecular, at, 0));
     h.moments += weight * readMomentHistory(texelFetch(previousMoments, at, 0));
@@ -68,6 +73,40 @@ void addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNor
 
 const int kBilinearTaps = 4;
 const int kAllTaps = kBilinearTaps + 9;
+
+vec4 catmullRomWeights(float f) {
+    return vec4(f * (-0.5 + f * (1.0 - 0.5 * f)), 1.0 + f * f * (-2.5 + 1.5 * f), f * (0.5 + f * (2.0 - 1.5 * f)),
+                f * f * (-0.5 + 0.5 * f));
+}
+
+// Draws light by Catmull-Rom where the twelve nearest texels (4 x 4 without corners) show the surface: bilinear drawing,
+// frame after frame of a picture that moves, washes shadows out. Held between the four nearest, so that nothing rings.
+void sharpen(inout History h, ivec2 corner, vec2 f, Reprojection r, vec3 geoNormalWs, float cosView) {
+    vec4 weightsX = catmullRomWeights(f.x), weightsY = catmullRomWeights(f.y);
+    vec3 diffuse = vec3(0.0), leastD = vec3(kHalfMax), mostD = vec3(0.0);
+    vec3 specular = vec3(0.0), leastS = vec3(kHalfMax), mostS = vec3(0.0);
+    float sum = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        ivec2 place = ivec2(i & 3, i >> 2);
+        bvec2 inner = equal(place + 1 >> 1, ivec2(1));
+        if (!any(inner)) continue;
+        ivec2 at = corner + place - 1;
+        if (!all(inner) && !showsSurface(at, r, geoNormalWs, cosView)) return;
+        vec3 d = readHistory(texelFetch(previousDiffuse, at, 0)).rgb;
+        vec3 s = readHistory(texelFetch(previousSpecular, at, 0)).rgb;
+        float weight = weightsX[place.x] * weightsY[place.y];
+        sum += weight;
+        diffuse += weight * d;
+        specular += weight * s;
+        if (!all(inner)) continue;
+        leastD = min(leastD, d);
+        mostD = max(mostD, d);
+        leastS = min(leastS, s);
+        mostS = max(mostS, s);
+    }
+    h.diffuse.rgb = clamp(diffuse / sum, leastD, mostD);
+    h.specular.rgb = clamp(specular / sum, leastS, mostS);
+}
 
 // Bilinear between the four nearest texels that show the same surface. Where none does, its texels among the 3 x 3
 // nearest: jitter makes edges hop from frame to frame. One loop that ends as soon as it may, the nearest texel first:
@@ -94,12 +133,15 @@ History fetchHistory(Reprojection r, vec3 geoNormalWs, float cosView) {
         if (weight > kLeastTap) addTap(h, tap, weight, r, geoNormalWs, cosView);
         if (h.weight >= kLeastTap && left <= kLeastTap) break;
     }
+    bool whole = h.weight > 1.0 - kLeastTap && left <= kLeastTap; // all four show it
     if (h.weight > 0.0) {
         float scale = 1.0 / h.weight;
         h.diffuse *= scale;
         h.specular *= scale;
         h.moments *= scale;
     }
+    vec2 between = min(f, 1.0 - f);
+    if (max(between.x, between.y) > kMovesPx && whole) sharpen(h, ivec2(corner), f, r, geoNormalWs, cosView);
     return h;
 }
 

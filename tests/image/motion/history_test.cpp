@@ -5,6 +5,7 @@
 #include "tests/unit/accel/scene_kit.h"
 
 #include <bit>
+#include <numbers>
 
 namespace kilolux::test {
 namespace {
@@ -137,6 +138,50 @@ TEST(History, FollowsTheCameraByWholePixels) {
     EXPECT_LE(apart / sum, 0.12);
     EXPECT_GE(apartUnmoved, 2.0 * apart) << "the picture is too even for this test";
     EXPECT_EQ(rig.renderer().statistics().historyReset, "first frame");
+}
+
+// Stripes of light, six pixels wide, that go by by parts of a pixel: drawing history anew in every frame must
+// not wash them out.
+TEST(History, ShadowsOfAMovingPictureStaySharp) {
+    constexpr int kWidth = 64, kHeight = 48, kFrames = 40;
+    SceneBuilder b = bareFloor();
+    for (int i = -20; i <= 20; ++i) {
+        addPrimitive(b, makeBox({0.5 * 6.0 * kPixelM, 0.01, 8.0}), Shading::Flat,
+                     glm::translate(glm::dmat4(1.0), glm::dvec3(12.0 * kPixelM * i, 3.0, 0.0)), 0);
+    }
+    b.light(lightDef(LightType::Directional, 100.0, LightUnit::Lux),
+            glm::rotate(glm::dmat4(1.0), -std::numbers::pi / 2.0, glm::dvec3(1, 0, 0)));
+    Camera camera = orthographicCamera({0, 2.5, 0}, {0, -1, -1.0e-3}, kPixelM, kHeight);
+    b.scene.cameras = {camera};
+    RenderOptions options = stochasticOptions(kWidth, kHeight, {"raysPerPixel=4", "spatialRadius=0"});
+    FrameRig rig(b.scene, options);
+    for (int i = 0; i < kFrames; ++i) {
+        rig.frames(1);
+        camera = movedByPixels(camera, kPixelM, {0.37, 0.23});
+        rig.renderer().setCamera(camera, Renderer::CameraChange::Move);
+    }
+    const FrameTargets moving = rig.frame();
+    b.scene.cameras = {camera};
+    options.method = "split";
+    const FrameTargets reference = FrameRig(b.scene, options).frame();
+    // The share of the reference's contrast that is left: the slope of one picture over the other.
+    double mean = 0.0, product = 0.0, square = 0.0, count = 0.0;
+    std::vector<std::pair<double, double>> values;
+    for (std::size_t i = 0; i < moving.pixels(); ++i) {
+        if (valueAt(moving, "historyDiffuse", i, 3) < 8.0f) continue; // came in not long ago
+        values.emplace_back(luminanceOf(moving.rgb("denoisedDiffuse", i)),
+                            luminanceOf(reference.rgb("litDiffuse", i)));
+        mean += values.back().second;
+        count += 1.0;
+    }
+    ASSERT_GT(count, 1500.0);
+    for (const auto& [shown, right] : values) {
+        product += shown * (right - mean / count);
+        square += (right - mean / count) * (right - mean / count);
+    }
+    std::printf("contrast of stripes that go by: %.3f of the reference's\n", product / square);
+    EXPECT_GT(product / square, 0.68); // bilinear drawing leaves 0.56
+    EXPECT_LT(product / square, 1.02);
 }
 
 // What a near box uncovers as the camera moves was not in the picture, though its place was: neither lists'
