@@ -78,8 +78,8 @@ Problem checkArguments(Arguments& arguments) {
             ExitCode::BadInput,
             fmt::format("--stats '{}' would overwrite the scene or the picture", arguments.statistics)};
     // Sampled pictures need some frames to settle; these are whole from the first one on.
-    const bool whole =
-        options.method == "all-lights" || options.method == "split" || options.method == "true";
+    const bool whole = options.method == "all-lights" || options.method == "split" ||
+                       options.method == "true" || options.method == "shadow-maps";
     options.frames = arguments.frames > 0 ? arguments.frames : (whole ? 1 : kSettledFrames);
     options.keepTargets = !arguments.dumpFolder.empty();
     return std::nullopt;
@@ -194,9 +194,11 @@ Command addRenderCommand(CLI::App& app) {
         ->type_name("FILE");
     render->add_option("--size", a.size, "in pixels")->type_name("WxH")->capture_default_str();
     render
-        ->add_option("--frames", a.frames,
-                     fmt::format("frames to accumulate (default: 1 for all-lights, split and true, else {})",
-                                 kSettledFrames))
+        ->add_option(
+            "--frames", a.frames,
+            fmt::format(
+                "frames to accumulate (default: 1 for all-lights, split, true and shadow-maps, else {})",
+                kSettledFrames))
         ->check(CLI::Range(1, 1000000).description(""))
         ->type_name("N");
     render->add_option("--seed", a.options.seed, "of the random numbers; same seed, same bytes")

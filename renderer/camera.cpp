@@ -131,6 +131,24 @@ double sampleBlackmanHarris(double u) {
 
 } // namespace
 
+bool boxMayBeSeen(const glm::dmat4& clipFromWorld, const glm::dvec3& lower, const glm::dvec3& upper) {
+    int outside[5] = {0, 0, 0, 0, 0};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec4 p =
+            clipFromWorld * glm::dvec4(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y,
+                                       corner & 4 ? upper.z : lower.z, 1.0);
+        outside[0] += p.x < -p.w;
+        outside[1] += p.x > p.w;
+        outside[2] += p.y < -p.w;
+        outside[3] += p.y > p.w;
+        outside[4] += p.z > p.w; // before the near plane
+    }
+    for (const int count : outside) {
+        if (count == 8) return false;
+    }
+    return true;
+}
+
 glm::dvec2 filterOffset(PixelFilter filter, std::uint32_t index) {
     // R2 sequence (Roberts 2018, the plastic number): even over few samples.
     const double u = std::fmod(0.5 + double(index) * 0.7548776662466927, 1.0);

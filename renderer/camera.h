@@ -25,6 +25,9 @@ glm::dvec3 anchorFor(const Camera& camera, const Bounds& scene);
 void setCamera(shared::FrameConstants& frame, const Camera& camera, const glm::dvec3& anchor, int widthPx,
                int heightPx, glm::dvec2 jitterPx, double aspect = 0.0);
 
+// Conservative, for culling: false only if all corners of a box lie outside one side of the clip volume.
+bool boxMayBeSeen(const glm::dmat4& clipFromWorld, const glm::dvec3& lower, const glm::dvec3& upper);
+
 // Sub-pixel offset of the i-th progressive sample, in pixels about the centre, distributed as the filter
 // (filter importance sampling): the plain mean of samples is then the filtered picture. The same for every
 // seed: pictures of as many frames have the same edges, and what differs between them is light.

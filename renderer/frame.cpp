@@ -26,6 +26,7 @@ FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
         reuseReservoirs = std::make_unique<ReuseReservoirsPass>(resources, plan.tracer);
         countLights = std::make_unique<CountLightsPass>(resources);
     } else {
+        if (plan.mapsShadows()) shadowMaps = std::make_unique<ShadowMapsPass>(resources);
         lightAll = std::make_unique<LightAllPass>(resources, plan.tracer);
     }
     if (plan.denoise) {
@@ -106,7 +107,8 @@ void recordFrame(FrameContext& frame, FramePasses& passes, const FramePlan& plan
     passes.resolveGBuffer.record(frame);
     passes.depthPyramid.record(frame);
     passes.lightGrid.record(frame);
-    if (passes.lightAll) passes.lightAll->record(frame, world, plan.raysPerLight);
+    if (passes.shadowMaps) passes.shadowMaps->record(frame);
+    if (passes.lightAll) passes.lightAll->record(frame, world, plan.lightAll);
     if (plan.stochastic()) {
         passes.sampleLights->record(frame);
         if (passes.upsampleSamples) passes.upsampleSamples->record(frame);

@@ -17,7 +17,7 @@ struct FramePlan {
     TraceBackEnd tracer = TraceBackEnd::ComputeBvh;
     Method method = Method::Stochastic;
     int view = 0; // VIEW_*
-    std::uint32_t raysPerLight = 1;
+    LightAllPass::Counts lightAll;
     bool transparent = false; // the scene has transparent surfaces
     bool halfSampling = false;
     std::uint32_t choices = 1; // samples of one evaluation of the candidate lights
@@ -32,6 +32,7 @@ struct FramePlan {
     bool keepsRaw() const { return denoise && mean; } // both the filtered and the sampled picture are needed
     shared::ResamplingConstants resampling{};         // of the methods that resample
     bool stochastic() const { return method == Method::Stochastic; }
+    bool mapsShadows() const { return method == Method::ShadowMaps; }
     bool resamples() const { return method >= Method::Uniform; }
     bool filtersLight() const { return stochastic() || resamples(); } // their light is noisy and demodulated
 };
@@ -45,6 +46,7 @@ struct FramePasses {
     ResolveGBufferPass resolveGBuffer;
     DepthPyramidPass depthPyramid;
     LightGridPass lightGrid;
+    std::unique_ptr<ShadowMapsPass> shadowMaps;
     std::unique_ptr<LightAllPass> lightAll;
     std::unique_ptr<SampleLightsPass> sampleLights;
     std::unique_ptr<UpsampleSamplesPass> upsampleSamples;

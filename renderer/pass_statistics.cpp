@@ -94,9 +94,11 @@ void describePasses(const std::deque<FrameTimes>& frames, const std::vector<std:
                 if (pass == name) values.push_back(ms);
         const double median = percentile(values, 0.5);
         statistics.passes.push_back({name, median, percentile(values, 0.95)});
-        statistics.frameMs += median;
+        // What runs now and then counts by how often it did.
+        const double perFrameMs = median * double(values.size()) / double(frames.size());
+        statistics.frameMs += perFrameMs;
         if (std::find(lighting.begin(), lighting.end(), name) != lighting.end())
-            statistics.directLightingMs += median;
+            statistics.directLightingMs += perFrameMs;
     }
 }
 

@@ -96,11 +96,15 @@ void Renderer::Impl::describe() {
     const BvhStats& bvh = gpuScene->bvhStats();
     statistics.bvhBuildMs = bvh.flattenSceneMs + bvh.pairMs + bvh.buildMs + bvh.flattenMs;
     statistics.bvhBytesPerTriangle = bvh.bytesPerTriangle;
+    statistics.shadowMaps = {};
+    if (shadowMaps)
+        statistics.shadowMaps = {shadowMaps->layout().faces, shadowMaps->layout().sizePx,
+                                 shadowMaps->drawn()};
     describeFeatures(used, statistics);
     describePasses(recentTimes,
-                   {"cull_coarse", "cull_fine", "light_all", "sample_lights", "upsample_samples",
-                    "compact_rays", "trace_samples", "visible_list", "shade_samples", "resample_lights",
-                    "reuse_reservoirs", "denoise_temporal", "denoise_spatial"},
+                   {"cull_coarse", "cull_fine", "shadow_maps", "light_all", "sample_lights",
+                    "upsample_samples", "compact_rays", "trace_samples", "visible_list", "shade_samples",
+                    "resample_lights", "reuse_reservoirs", "denoise_temporal", "denoise_spatial"},
                    statistics);
     describeMemory(device.memory(), statistics);
 }

@@ -212,6 +212,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     updateScene(timeS);
     if (plan.resamples())
         gpuScene->prepareLightDraws(int(features.at(shared::CHOICE_DRAW_FROM)), sceneExtentM);
+    if (shadowMaps) shadowMaps->update(*gpuScene);
     const bool turns = historyReset.empty();
     // Frozen at once, it holds the first frame: before that there is nothing to hold.
     const bool turnsFiltered = turns && (historyBegins || !(options.settings.freezeHistory && frozen(index)));
@@ -234,8 +235,8 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
     gpu::Commands commands(device, &passTimes);
     commands.fillBuffer(counterBuffer, 0);
     if (rayList) commands.fillBuffer(rayList->heads, 0);
-    FrameContext context{commands, *gpuScene, *targets,    frameBuffer, constants,    counterBuffer,
-                         *grid,    used,      lists.get(), &noise,      rayList.get()};
+    FrameContext context{commands, *gpuScene, *targets,    frameBuffer, constants,     counterBuffer,
+                         *grid,    used,      lists.get(), &noise,      rayList.get(), shadowMaps.get()};
     const ReplacedLight replaced(device, options.replaceLit ? options.replaceLit(int(index)) : LitTexels{});
     context.replacedDiffuse = replaced.diffuse ? &replaced.diffuse : nullptr;
     context.replacedSpecular = replaced.specular ? &replaced.specular : nullptr;
@@ -254,6 +255,7 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
         return;
     }
     takePassOutput(commands);
+    if (shadowMaps) shadowMaps->finishFrame();
 
     finishFrame();
 }
@@ -262,11 +264,13 @@ void Renderer::Impl::runFrame(std::uint32_t index, glm::ivec2 outputPx, gpu::Pas
 // that the time is known; the frame after it starts afresh.
 void Renderer::Impl::compilePipelines() {
     gpu::PassTimes compilation;
+    if (shadowMaps) shadowMaps->limitFaces(1);
     runFrame(0, glm::min(glm::ivec2(8), glm::ivec2(options.width, options.height)), compilation);
     for (const gpu::PassTimes::Entry& entry : compilation.entries()) {
         statistics.firstDispatchMs.emplace_back(entry.name,
                                                 *std::max_element(entry.ms.begin(), entry.ms.end()));
     }
+    if (shadowMaps) shadowMaps->limitFaces();
     std::fill(counted.begin(), counted.end(), 0);
     historyReset = "first frame";
 }

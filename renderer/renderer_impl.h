@@ -69,7 +69,8 @@ struct Renderer::Impl {
     std::unique_ptr<LightGrid> grid;
     std::unique_ptr<VisibleLists> lists;
     std::unique_ptr<RayList> rayList;
-    gpu::Image noise; // only of the stochastic method
+    std::unique_ptr<ShadowMaps> shadowMaps; // of the method with them
+    gpu::Image noise;                       // only of the stochastic method
     GridUse gridUse;
     double sceneExtentM = 0.0; // diagonal of the bounds
     gpu::Buffer frameBuffer, counterBuffer;

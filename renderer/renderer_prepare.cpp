@@ -221,13 +221,15 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     features.clear();
     if (auto error = planView()) return error;
     plan.producer = wantedProducer();
-    plan.raysPerLight = std::uint32_t(options.settings.raysPerLight);
+    plan.lightAll = {std::uint32_t(options.settings.raysPerLight),
+                     std::uint32_t(options.settings.shadowSamples)};
     plan.halfSampling = plan.stochastic() && options.settings.sampling != Sampling::Full;
     plan.compactRays = plan.stochastic() && options.settings.compactRays;
     plan.transparent = !gpuScene->transparentDraws().empty();
 
-    features[shared::CHOICE_ESTIMATOR] =
-        plan.method == Method::ReferenceTrue ? shared::ESTIMATOR_TRUE : shared::ESTIMATOR_SPLIT;
+    features[shared::CHOICE_ESTIMATOR] = plan.method == Method::ReferenceTrue ? shared::ESTIMATOR_TRUE
+                                         : plan.mapsShadows()                 ? shared::ESTIMATOR_MAPS
+                                                                              : shared::ESTIMATOR_SPLIT;
     features[shared::CHOICE_TONE_MAP] =
         options.settings.toneMap == ToneMap::None ? shared::TONE_MAP_NONE : shared::TONE_MAP_NEUTRAL;
 
@@ -254,6 +256,14 @@ std::optional<Error> Renderer::Impl::preparePlan() {
         Result<gpu::Image> mask = uploadNoise(device);
         if (!mask) return Error{mask.error()};
         noise = std::move(mask.value());
+    }
+    shadowMaps.reset();
+    if (plan.mapsShadows()) {
+        if (!device.hasGeometryShader())
+            return Error{fmt::format("device '{}' cannot draw shadow maps: its fragments do not know their "
+                                     "triangle",
+                                     device.name())};
+        shadowMaps = std::make_unique<ShadowMaps>(device, std::uint32_t(options.settings.shadowMapSize));
     }
     makeTargets();
     shadersCompiled = 0;

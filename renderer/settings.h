@@ -41,6 +41,8 @@ struct Settings {
     double raysPerPixel = 1.0;
     int raysPerLight = 1;
     double penumbraScale = 1.0;
+    int shadowMapSize = 256;
+    int shadowSamples = 16;
     bool lightGrid = true;
     int gridThreadLights = 256;
     bool jitter = true;

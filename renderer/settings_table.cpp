@@ -105,6 +105,19 @@ constexpr std::array kRows = {
                .help =
                    "how large all lights are for shadow rays: below 1 shadows are sharper and less noisy; "
                    "light without shadow stays"},
+    SettingRow{.name = "shadowMapSize",
+               .member = &Settings::shadowMapSize,
+               .min = 32,
+               .max = 1024,
+               .unit = "texels",
+               .help = "shadow-maps: width of a face of a light's map (directional: 4 times as wide); halved "
+                       "until all fit into 512 MiB"},
+    SettingRow{.name = "shadowSamples",
+               .member = &Settings::shadowSamples,
+               .min = 1,
+               .max = 64,
+               .unit = "per light, pixel and frame",
+               .help = "shadow-maps: samples of a map that find the penumbra, and as many that fill it"},
     SettingRow{.name = "lightGrid",
                .member = &Settings::lightGrid,
                .help = "cull lights into cells of the view; off walks all lights for the same picture"},

@@ -54,6 +54,10 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
     json["bvh"] = {{"buildMs", s.bvhBuildMs}, {"bytesPerTriangle", s.bvhBytesPerTriangle}};
     json["lightGrid"] = {
         {"indices", s.gridIndices}, {"tests", s.gridTests}, {"coarseCells", s.gridCoarseCells}};
+    if (s.shadowMaps.faces > 0) {
+        json["shadowMaps"] = {
+            {"faces", s.shadowMaps.faces}, {"sizePx", s.shadowMaps.sizePx}, {"drawn", s.shadowMaps.drawn}};
+    }
     json["historyReset"] = s.historyReset;
     json["view"] = s.view;
     json["notes"] = s.notes;

@@ -23,6 +23,13 @@ struct MemoryCause {
     double peakMiB = 0.0;
 };
 
+// Of the method 'shadow-maps'.
+struct ShadowMapUse {
+    std::size_t faces = 0; // that all lights have
+    std::uint32_t sizePx = 0;
+    std::size_t drawn = 0; // in all frames
+};
+
 struct FrameStatistics {
     std::string device;
     std::string driver;
@@ -55,11 +62,12 @@ struct FrameStatistics {
         firstDispatchMs;    // pass and its first dispatch, compiler included
     double startupMs = 0.0; // process start to the first picture
     double exposureEv100 = 0.0;
-    double fillNit = 0.0;                 // plain ambient light in the picture, which is not direct light
-    int rangesDerived = 0;                // lights without a range of their own
-    std::uint32_t gridIndices = 0;        // light indices in the lists of the last frame's light grid
-    std::uint32_t gridTests = 0;          // light-cell tests that made them
-    std::uint32_t gridCoarseCells = 0;    // cells that took their coarse cell's list for want of room
+    double fillNit = 0.0;              // plain ambient light in the picture, which is not direct light
+    int rangesDerived = 0;             // lights without a range of their own
+    std::uint32_t gridIndices = 0;     // light indices in the lists of the last frame's light grid
+    std::uint32_t gridTests = 0;       // light-cell tests that made them
+    std::uint32_t gridCoarseCells = 0; // cells that took their coarse cell's list for want of room
+    ShadowMapUse shadowMaps;
     double bvhBuildMs = 0.0;              // flattening, pairing, building
     double bvhBytesPerTriangle = 0.0;     // nodes and triangles together
     std::string historyReset;             // why history last began anew

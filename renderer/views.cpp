@@ -138,11 +138,13 @@ constexpr auto kViewChoices = [] {
     return choices;
 }();
 
-constexpr std::array<NamedChoice, 10> kMethods{{
+constexpr std::array<NamedChoice, 11> kMethods{{
     {"stochastic", "about one ray per pixel to lights that earlier frames saw, then one denoiser for all"},
     {"all-lights", "every light in range of each pixel with one ray each"},
     {"split", "reference: analytic irradiance times mean visibility; converges over --frames"},
     {"true", "reference: the BRDF at sampled points of every light; converges over --frames"},
+    {"shadow-maps",
+     "baseline: every light in range with a soft shadow from a map of its own (Fernando 2005)"},
     {"uniform", "baseline: one ray per pixel to a light of its cell, each as likely"},
     {"power", "baseline: one ray per pixel to a light of the scene, by power"},
     {"brdf",

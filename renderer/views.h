@@ -27,6 +27,7 @@ enum class Method {
     AllLights,
     ReferenceSplit,
     ReferenceTrue,
+    ShadowMaps,
     Uniform,
     Power,
     Brdf,

@@ -1,6 +1,7 @@
 // The report as one page: what was measured and how, curves of error against time and rays, tables, pictures.
 #include "renderer/bench/bench_math.h"
 #include "renderer/bench/bench_scene.h"
+#include "renderer/bench/html_costs.h"
 #include "renderer/bench/html_parts.h"
 #include "renderer/bench/sweep.h"
 
@@ -55,16 +56,15 @@ std::string plot(const SceneResult& scene, bool filtered) {
 
 // --- Tables ----------------------------------------------------------------------------------------------
 
-std::string ratioCell(const std::vector<double>& ratios) {
-    if (ratios.empty()) return "<td>no frame yet</td>";
+std::string ratioCell(const std::vector<double>& ratios, const char* none = "no frame yet") {
+    if (ratios.empty()) return fmt::format("<td>{}</td>", none);
     const Interval i = intervalOf(ratios);
     return fmt::format("<td>{:.2f} <small>{:.2f} to {:.2f}</small></td>", i.median, i.least, i.largest);
 }
 
-std::string methodRow(const SceneResult& scene, const MethodResult& m,
-                      const std::vector<double>& rayBudgets) {
+std::string methodRow(const MethodResult& m) {
     if (m.error)
-        return fmt::format("<tr><th>{}</th><td colspan=\"13\">{}</td></tr>\n", escaped(m.method.label),
+        return fmt::format("<tr><th>{}</th><td colspan=\"7\">{}</td></tr>\n", escaped(m.method.label),
                            escaped(*m.error));
     std::vector<double> ms, rays, errors, flips, energy;
     for (const BenchRun& run : m.filtered) {
@@ -74,31 +74,45 @@ std::string methodRow(const SceneResult& scene, const MethodResult& m,
         flips.push_back(run.points.back().flipMean);
         energy.push_back(run.points.back().energyRatio);
     }
-    std::string row = fmt::format("<tr><th>{}</th><td>{}</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.1f}</td>"
-                                  "<td>{:.4f}</td><td>{:.4f}</td><td>{:+.2f} %</td>",
-                                  escaped(m.method.label), m.reference, medianOf(ms), medianOf(rays),
-                                  m.statistics.gpuMemoryPeakMiB, medianOf(errors), medianOf(flips),
-                                  100.0 * (medianOf(energy) - 1.0));
-    for (const double budget : scene.budgetsMs)
-        row += ratioCell(ratiosAtEqualTime(scene.methods.front(), m, budget));
-    for (const double budget : rayBudgets)
-        row += ratioCell(ratiosAtEqualRays(scene.methods.front(), m, budget));
-    return row + "</tr>\n";
+    return fmt::format("<tr><th>{}</th><td>{}</td><td>{:.1f}</td><td>{:.2f}</td><td>{:.1f}</td>"
+                       "<td>{:.4f}</td><td>{:.4f}</td><td>{:+.2f} %</td></tr>\n",
+                       escaped(m.method.label), m.reference, medianOf(ms), medianOf(rays),
+                       m.statistics.gpuMemoryPeakMiB, medianOf(errors), medianOf(flips),
+                       100.0 * (medianOf(energy) - 1.0));
 }
 
 std::string methodTable(const SceneResult& scene, const BenchPlan& plan) {
-    std::string head =
-        fmt::format("<tr><th>method</th><th>held against</th><th>ms a frame</th><th>rays a pixel</th>"
-                    "<th>MiB</th><th>error, {0} frames</th><th>FLIP, {0} frames</th><th>energy</th>",
-                    plan.frames);
-    for (const double budget : scene.budgetsMs)
-        head += fmt::format("<th>error after {:.0f} ms over the first's</th>", budget);
-    for (const double rays : plan.budgetsRays)
-        head += fmt::format("<th>raw error after {:g} rays a pixel over the first's</th>", rays);
     std::string rows;
     for (const MethodResult& method : scene.methods)
-        rows += methodRow(scene, method, plan.budgetsRays);
-    return "<table>" + head + "</tr>\n" + rows + "</table>\n";
+        rows += methodRow(method);
+    return fmt::format(
+        "<table><tr><th>method</th><th>held against</th><th>ms a frame</th><th>rays a pixel</th>"
+        "<th>MiB</th><th>error, {0} frames</th><th>FLIP, {0} frames</th><th>energy</th></tr>\n"
+        "{1}</table>\n",
+        plan.frames, rows);
+}
+
+// Errors over that of the first method; above 1 the first is better.
+std::string ratioTable(const SceneResult& scene, const BenchPlan& plan) {
+    const MethodResult& first = scene.methods.front();
+    std::string head = fmt::format("<tr><th>error over that of {}</th>", escaped(first.method.label)), rows;
+    for (const double budget : scene.budgetsMs)
+        head += fmt::format("<th>denoised, after {:.0f} ms</th>", budget);
+    for (const double rays : plan.budgetsRays)
+        head += fmt::format("<th>raw, after {:g} rays a pixel</th>", rays);
+    for (std::size_t i = 1; i < scene.methods.size(); ++i) {
+        const MethodResult& m = scene.methods[i];
+        if (m.error) continue;
+        const bool traces = std::any_of(m.raw.begin(), m.raw.end(),
+                                        [](const BenchRun& run) { return run.raysPerPixel > 0.0; });
+        rows += fmt::format("<tr><th>{}</th>", escaped(m.method.label));
+        for (const double budget : scene.budgetsMs)
+            rows += ratioCell(ratiosAtEqualTime(first, m, budget));
+        for (const double budget : plan.budgetsRays)
+            rows += ratioCell(ratiosAtEqualRays(first, m, budget), traces ? "no frame yet" : "no rays");
+        rows += "</tr>\n";
+    }
+    return rows.empty() ? "" : "<table>" + head + "</tr>\n" + rows + "</table>\n";
 }
 
 // Of pictures that stand still: how noisy one frame is, how alike the errors of its samples are, what is left
@@ -134,7 +148,11 @@ std::string changeTable(const SceneResult& scene) {
         }
     }
     if (rows.empty()) return {};
-    return "<table><tr><th>while the scene changes, denoised</th><th>frames until 90 % is there</th>"
+    return "<p>While the scene changes: 'lights-on' switches every other light on after 12 frames without, "
+           "'lights-move' swings all local lights by 2 % of the scene's extent, 'camera-turns' turns by 20 "
+           "degrees a second, both at 30 frames a second. The picture of the 24th frame is held against what "
+           "it should be then.</p>\n"
+           "<table><tr><th>while the scene changes, denoised</th><th>frames until 90 % is there</th>"
            "<th>there in the first</th><th>error, 24th frame</th><th>FLIP, 24th frame</th></tr>\n" +
            rows + "</table>\n";
 }
@@ -176,7 +194,8 @@ std::string scaling(const BenchResult& result) {
     const std::string amount = sweep == Sweep::Resolution ? "pixels"
                                : sweep == Sweep::Rays     ? "rays a pixel that are asked for"
                                                           : std::string(sweepName(sweep));
-    std::string text = "<h2>Scaling</h2>\n";
+    std::string text =
+        "<h2>Scaling</h2>\n<p>A dot is a step of the sweep, which has a section of its own below.</p>\n";
     for (std::size_t first = 0, end = 0; first < result.scenes.size(); first = end) {
         const std::filesystem::path file = result.scenes[first].scene.file;
         while (end < result.scenes.size() && result.scenes[end].scene.file == file)
@@ -200,36 +219,6 @@ std::string scaling(const BenchResult& result) {
     return text;
 }
 
-// The talk's stages for opaque surfaces, PlayStation 5 at 1080p, beside the first method's passes here.
-std::string stageTable(const MethodResult& m) {
-    struct Stage {
-        const char* name;
-        double talkMs; // below 0: not there
-        std::vector<std::string_view> passes;
-    };
-    const std::vector<Stage> stages = {{"light grid", -1.0, {"cull_coarse", "cull_fine"}},
-                                       {"sampling", 0.70, {"sample_lights", "upsample_samples"}},
-                                       {"screen traces", 0.47, {}},
-                                       {"ray tracing", 1.35, {"compact_rays", "trace_samples"}},
-                                       {"shading", 0.55, {"shade_samples"}},
-                                       {"visible light list", 0.05, {"visible_list"}},
-                                       {"denoising", 0.96, {"denoise_temporal", "denoise_spatial"}}};
-    std::string rows;
-    for (const Stage& stage : stages) {
-        double ms = 0.0;
-        for (const PassTiming& pass : m.statistics.passes)
-            if (std::find(stage.passes.begin(), stage.passes.end(), pass.name) != stage.passes.end())
-                ms += pass.medianMs;
-        rows += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td></tr>\n", stage.name,
-                            stage.passes.empty() ? "none" : fmt::format("{:.2f}", ms),
-                            stage.talkMs < 0.0 ? "not told" : fmt::format("{:.2f}", stage.talkMs));
-    }
-    return fmt::format(
-        "<table><tr><th>stage</th><th>{}, ms here</th><th>the talk, ms on its console</th></tr>\n{}"
-        "</table>\n",
-        escaped(m.method.label), rows);
-}
-
 std::string pictures(const SceneResult& scene, const BenchPlan& plan) {
     const int frame = std::min(kShownFrame, plan.frames);
     std::string text = picture(scene.width, scene.height, scene.referenceShown, "reference (true)");
@@ -251,12 +240,13 @@ std::string sceneSection(const SceneResult& scene, const BenchPlan& plan) {
                        escaped(scene.scene.file.filename().string()), escaped(scene.camera), step,
                        scene.width, scene.height, scene.methods.front().statistics.lights,
                        scene.methods.front().statistics.triangles, scene.exposureEv100, scene.modelGap) +
-           methodTable(scene, plan) + stillTable(scene) + changeTable(scene) + plot(scene, true) +
-           plot(scene, false) + stageTable(scene.methods.front()) + pictures(scene, plan);
+           methodTable(scene, plan) + ratioTable(scene, plan) + stillTable(scene) + changeTable(scene) +
+           plot(scene, true) + plot(scene, false) + stageTable(scene.methods.front()) + passTable(scene) +
+           pictures(scene, plan);
 }
 
 std::string meanCell(const OverScenes& mean, std::size_t allScenes) {
-    if (mean.scenes == 0) return "<td>-</td>";
+    if (mean.scenes == 0) return "<td>no frame yet</td>";
     const Interval& i = mean.firstOverOther;
     const std::string fewer =
         mean.scenes < allScenes ? fmt::format("<br><small>{} scenes</small>", mean.scenes) : "";
@@ -276,10 +266,10 @@ std::string summary(const BenchResult& result) {
         rows += fmt::format("<tr><th>{}</th>{}</tr>\n", escaped(result.plan.methods[i].label), row);
     }
     return fmt::format(
-        "<h2>All scenes</h2><p>Geometric means over {} scenes; below 1 {} has the smaller error.</p>\n"
+        "<h2>All together</h2><p>Geometric means over {} {}; below 1 {} has the smaller error.</p>\n"
         "<table><tr><th>error of {} over that of</th>{}</tr>\n{}</table>\n",
-        result.scenes.size(), escaped(result.plan.methods.front().label),
-        escaped(result.plan.methods.front().label), head, rows);
+        result.scenes.size(), result.plan.sweep == Sweep::None ? "scenes" : "steps of the sweep",
+        escaped(result.plan.methods.front().label), escaped(result.plan.methods.front().label), head, rows);
 }
 
 constexpr const char* kStyle =
@@ -290,7 +280,8 @@ constexpr const char* kStyle =
     "tr:first-child th{font-size:.8rem;white-space:normal;min-width:4rem;vertical-align:bottom}"
     "th:first-child{text-align:left}"
     "small{color:#666}svg{max-width:100%;font-size:12px}.g{stroke:#ddd}"
-    ".pictures{display:flex;flex-wrap:wrap;gap:1rem}figure{margin:0}img{max-width:100%;height:auto}"
+    ".pictures{display:flex;flex-wrap:wrap;gap:1rem}figure{margin:0}img{max-width:100%;height:auto;image-"
+    "rendering:pixelated}"
     "figcaption{color:#555}code{background:#f2f2f2;padding:.1rem .3rem;overflow-wrap:anywhere}";
 
 } // namespace
@@ -301,9 +292,9 @@ std::string benchHtml(const BenchResult& result) {
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width\"><title>Kilolux bench</title><style>{}</style></head><body>\n"
         "<h1>Speed against error</h1>\n<p>{}, {} ({}). {} x {} pixels, {} still frames without jitter, {} "
-        "repetitions, interleaved. Made by <code>{}</code>.{}</p>\n",
+        "repetition{}, interleaved. Made by <code>{}</code>.{}</p>\n",
         kStyle, escaped(plan.date), escaped(result.device), escaped(result.driver), plan.width, plan.height,
-        plan.frames, plan.repetitions, escaped(plan.command),
+        plan.frames, plan.repetitions, plan.repetitions == 1 ? "" : "s", escaped(plan.command),
         result.cancelled ? " The run was stopped before its end." : "");
     page += fmt::format(
         "<p>Error is the relative mean squared error of exposed light, (picture - reference)&#178; / "
@@ -317,7 +308,14 @@ std::string benchHtml(const BenchResult& result) {
         "shading, denoising. Beside a ratio stand the least and the largest of the repetitions. Samples are "
         "alike when their errors are: 0 is independent, 1 the same; what is alike no filter can take away. A "
         "picture "
-        "flickers by so much from frame to frame, relative to its light.</p>\n",
+        "flickers by so much from frame to frame, relative to its light. Both axes of every plot are "
+        "logarithmic; "
+        "a curve is better the lower and the farther left it is, and the dots of a method are its frames 1, "
+        "2, "
+        "4, 8 and so on. "
+        "'the talk' is "
+        "'MegaLights: Stochastic Direct Lighting in Unreal Engine 5' (SIGGRAPH 2025), whose stages the first "
+        "method follows.</p>\n",
         plan.referenceFrames);
     if (plan.methods.size() > 1 && !result.scenes.empty()) page += summary(result);
     page += scaling(result);

@@ -21,7 +21,9 @@ std::string chooseCamera(const Scene& scene, const std::string& wanted) {
 
 // 'split' is what shading by summed weights converges to, 'true' what the BRDF at points does.
 std::string referenceOf(const std::string& method) {
-    return method == "stochastic" || method == "all-lights" || method == "split" ? "split" : "true";
+    const bool split =
+        method == "stochastic" || method == "all-lights" || method == "split" || method == "shadow-maps";
+    return split ? "split" : "true";
 }
 
 // Counts steps: false once the user has had enough.

@@ -60,7 +60,9 @@ Result<Reference> SceneBench::reference(const Scene& edited, const std::string& 
 Result<Reference> SceneBench::reference(const std::string& method, const Settings& moved) const {
     Settings settings = moved;
     settings.raysPerLight = kReferenceRays;
-    const std::string tag = result_.sweepFactor == 1.0
+    // Other rays and pixels are another method's and another size; lights and triangles another scene.
+    const bool otherScene = plan_.sweep == Sweep::Lights || plan_.sweep == Sweep::Triangles;
+    const std::string tag = result_.sweepFactor == 1.0 || !otherScene
                                 ? ""
                                 : std::string(sweepName(plan_.sweep)) + std::to_string(result_.sweepFactor);
     return makeReference(scene_, options(method, settings, 0), std::max(1, plan_.referenceFrames / 2),

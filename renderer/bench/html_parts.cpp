@@ -15,6 +15,8 @@ namespace {
 constexpr std::array kColors = {"#b45f06", "#1f77b4", "#2ca02c", "#9467bd",
                                 "#d62728", "#17becf", "#7f7f7f", "#bcbd22"};
 
+constexpr int kLeastWidthPx = 384;
+
 std::string base64(const std::vector<std::uint8_t>& bytes) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
@@ -29,26 +31,67 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
     return text;
 }
 
+// 1, 2 and 5 of every decade.
+double tick(int index) {
+    constexpr std::array kSteps = {1.0, 2.0, 5.0};
+    const int decade = int(std::floor(index / 3.0));
+    return kSteps[std::size_t(index - 3 * decade)] * std::pow(10.0, decade);
+}
+
+// Of an axis: from the tick below all values to the one above.
+struct Ticks {
+    int first = 0, last = 1;
+    int step = 1; // 3: whole decades only
+
+    double place(double value) const {
+        const double from = std::log10(tick(first)), to = std::log10(tick(last));
+        return (std::log10(value) - from) / (to - from);
+    }
+};
+
+Ticks ticksFor(double low, double high) {
+    Ticks ticks;
+    ticks.first = 3 * int(std::floor(std::log10(low))) + 3;
+    while (tick(ticks.first) > low * (1.0 + 1e-9))
+        --ticks.first;
+    ticks.last = ticks.first + 1;
+    while (tick(ticks.last) < high * (1.0 - 1e-9))
+        ++ticks.last;
+    ticks.step = ticks.last - ticks.first > 7 ? 3 : 1;
+    return ticks;
+}
+
+std::string numberText(double value) {
+    if (value >= 1e6) return fmt::format("{:g} million", value * 1e-6);
+    return value >= 1e3 ? fmt::format("{:.0f}", value) : fmt::format("{:g}", value);
+}
+
 class LogPlot {
   public:
     LogPlot(const std::vector<Curve>& curves, std::string xLabel, std::string yLabel)
         : curves_(curves), xLabel_(std::move(xLabel)), yLabel_(std::move(yLabel)) {
+        double low[2] = {1e300, 1e300}, high[2] = {0.0, 0.0};
         for (const Curve& curve : curves)
             for (const auto& [x, y] : curve.points) {
-                low_[0] = std::min(low_[0], std::log10(x));
-                high_[0] = std::max(high_[0], std::log10(x));
-                low_[1] = std::min(low_[1], std::log10(y));
-                high_[1] = std::max(high_[1], std::log10(y));
+                low[0] = std::min(low[0], x);
+                high[0] = std::max(high[0], x);
+                low[1] = std::min(low[1], y);
+                high[1] = std::max(high[1], y);
             }
+        empty_ = high[0] <= 0.0 || high[1] <= 0.0;
+        if (empty_) return;
+        for (int axis = 0; axis < 2; ++axis)
+            ticks_[axis] = ticksFor(low[axis], high[axis]);
     }
 
     std::string svg() const {
-        if (low_[0] > high_[0]) return "<p>nothing to plot</p>\n";
+        if (empty_) return "<p>nothing to plot</p>\n";
         std::string text =
-            fmt::format("<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\">\n", kWidth, kHeight, kWidth);
+            fmt::format("<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\" aria-label=\"{} over {}\">\n",
+                        kWidth, kHeight, kWidth, escaped(yLabel_), escaped(xLabel_));
         for (int axis = 0; axis < 2; ++axis)
-            for (int decade = int(std::floor(low_[axis])); decade <= int(std::ceil(high_[axis])); ++decade)
-                text += gridLine(axis, decade);
+            for (int i = ticks_[axis].first; i <= ticks_[axis].last; ++i)
+                if (ticks_[axis].step == 1 || i % 3 == 0) text += gridLine(axis, tick(i));
         for (std::size_t i = 0; i < curves_.size(); ++i)
             text += line(curves_[i], kColors[i % kColors.size()], int(i));
         return text + fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>"
@@ -58,28 +101,27 @@ class LogPlot {
     }
 
   private:
-    static constexpr double kWidth = 880, kHeight = 320, kLeft = 60, kRight = 440, kTop = 24, kBottom = 284;
+    static constexpr double kWidth = 880, kHeight = 340, kLeft = 68, kRight = 600, kTop = 26, kBottom = 300;
 
-    double place(int axis, double logValue) const {
-        const double from = std::floor(low_[axis]), to = std::max(std::ceil(high_[axis]), from + 1.0);
-        const double t = (logValue - from) / (to - from);
+    double place(int axis, double value) const {
+        const double t = ticks_[axis].place(value);
         return axis == 0 ? std::lerp(kLeft, kRight, t) : std::lerp(kBottom, kTop, t);
     }
-    std::string gridLine(int axis, int decade) const {
-        const double at = place(axis, decade);
-        const std::string number = fmt::format("{:g}", std::pow(10.0, decade));
+    std::string gridLine(int axis, double value) const {
+        const double at = place(axis, value);
+        const std::string number = numberText(value);
         if (axis == 0)
             return fmt::format("<line class=\"g\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>"
                                "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4}</text>\n",
-                               at, kTop, kBottom, kBottom + 14, number);
+                               at, kTop, kBottom, kBottom + 16, number);
         return fmt::format("<line class=\"g\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>"
                            "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5}</text>\n",
-                           at, kLeft, kRight, kLeft - 4, at + 4, number);
+                           at, kLeft, kRight, kLeft - 6, at + 4, number);
     }
     std::string line(const Curve& curve, const char* color, int index) const {
         std::string points, dots;
         for (const auto& [x, y] : curve.points) {
-            const double px = place(0, std::log10(x)), py = place(1, std::log10(y));
+            const double px = place(0, x), py = place(1, y);
             points += fmt::format("{:.1f},{:.1f} ", px, py);
             dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"{}\"/>", px, py, color);
         }
@@ -93,7 +135,8 @@ class LogPlot {
 
     const std::vector<Curve>& curves_;
     std::string xLabel_, yLabel_;
-    double low_[2] = {1e9, 1e9}, high_[2] = {-1e9, -1e9};
+    Ticks ticks_[2];
+    bool empty_ = false;
 };
 
 } // namespace
@@ -135,9 +178,11 @@ std::string picture(int width, int height, const std::vector<std::uint8_t>& srgb
     if (!output || !output->open("picture.png", spec) ||
         !output->write_image(OIIO::TypeDesc::UINT8, srgb.data()) || !output->close())
         return fmt::format("<p>no picture: {}</p>", escaped(output ? output->geterror() : "no PNG writer"));
+    // Small ones are shown in whole multiples of their pixels.
+    const int factor = std::max(1, kLeastWidthPx / width);
     return fmt::format("<figure><img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">"
                        "<figcaption>{}</figcaption></figure>\n",
-                       width, height, escaped(caption), base64(bytes), escaped(caption));
+                       factor * width, factor * height, escaped(caption), base64(bytes), escaped(caption));
 }
 
 std::string logPlot(const std::vector<Curve>& curves, const std::string& xLabel, const std::string& yLabel) {

@@ -236,6 +236,11 @@ class GraphicsPass : public PassBase {
                 std::span<const std::byte> constants, std::uint32_t width, std::uint32_t height,
                 const std::vector<Attachment>& colors, const Attachment& depth,
                 const std::function<void(VkCommandBuffer)>& draw);
+    // Other push constants for the draws that follow, within draw().
+    template<typename Push>
+    void pushAgain(VkCommandBuffer commands, const Push& constants) const {
+        vkCmdPushConstants(commands, layout_, stages_, 0, sizeof(Push), &constants);
+    }
 
   private:
     VkPipeline pipeline(const SpecValues& features);

@@ -15,13 +15,18 @@ LightAllPass::LightAllPass(gpu::PassResources& resources, TraceBackEnd tracer)
                      {"lightCountsOut", Access::Write},
                      {"GridCells"},
                      {"GridIndices"},
-                     {"Counters", Access::ReadWrite}},
+                     {"Counters", Access::ReadWrite},
+                     {"ShadowMaps", Access::Read, gpu::Presence::Optional},
+                     {"shadowDepths", Access::Read, gpu::Presence::Optional}},
                     lightUses(),
                     traceUses(tracer)}),
             {}, tracerDefines(tracer)) {}
 
-void LightAllPass::record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t raysPerLight) {
+void LightAllPass::record(FrameContext& frame, const gpu::Bindings& world, const Counts& counts) {
     const Targets& targets = frame.targets;
+    gpu::Bindings maps;
+    if (frame.shadowMaps)
+        maps = {{"ShadowMaps", frame.shadowMaps->maps()}, {"shadowDepths", frame.shadowMaps->depths()}};
     pass_.record(frame.commands, frame.features,
                  joined({{{"Frame", frame.frameBuffer},
                           {"gSurface", targets.gSurface},
@@ -32,9 +37,10 @@ void LightAllPass::record(FrameContext& frame, const gpu::Bindings& world, std::
                           {"GridCells", frame.grid.cells()},
                           {"GridIndices", frame.grid.indices()},
                           {"Counters", frame.counters}},
+                         maps,
                          frame.scene.lightBindings(),
                          world}),
-                 raysPerLight, frame.tiles());
+                 counts, frame.tiles());
 }
 
 CompositePass::CompositePass(gpu::PassResources& resources)

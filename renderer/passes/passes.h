@@ -6,6 +6,7 @@
 #include "renderer/gpu_scene.h"
 #include "renderer/light_grid.h"
 #include "renderer/ray_list.h"
+#include "renderer/shadow_maps.h"
 #include "renderer/targets.h"
 #include "renderer/visible_lists.h"
 #include "shaders/shared/frame.h"
@@ -25,9 +26,10 @@ struct FrameContext {
     const gpu::Buffer& counters;
     const LightGrid& grid;
     gpu::SpecValues features;
-    const VisibleLists* lists = nullptr; // of the stochastic method
-    const gpu::Image* noise = nullptr;   // of the stochastic method
-    const RayList* rays = nullptr;       // null: every pixel has its own place in a dispatch
+    const VisibleLists* lists = nullptr;    // of the stochastic method
+    const gpu::Image* noise = nullptr;      // of the stochastic method
+    const RayList* rays = nullptr;          // null: every pixel has its own place in a dispatch
+    const ShadowMaps* shadowMaps = nullptr; // of the method with them
     // For tests: texels that replace litDiffuse and litSpecular once samples are shaded.
     const gpu::Buffer* replacedDiffuse = nullptr;
     const gpu::Buffer* replacedSpecular = nullptr;
@@ -87,10 +89,26 @@ class LightGridPass {
     gpu::ComputePass fine_;
 };
 
+// What is due of the lights' shadow maps.
+class ShadowMapsPass {
+  public:
+    explicit ShadowMapsPass(gpu::PassResources& resources);
+    void record(FrameContext& frame);
+
+  private:
+    void drawFace(VkCommandBuffer commands, const GpuScene& scene, const ShadowMaps::Face& face);
+
+    gpu::GraphicsPass pass_;
+};
+
 class LightAllPass {
   public:
+    struct Counts {
+        std::uint32_t raysPerLight = 1;
+        std::uint32_t shadowSamples = 16; // of a shadow map
+    };
     LightAllPass(gpu::PassResources& resources, TraceBackEnd tracer);
-    void record(FrameContext& frame, const gpu::Bindings& world, std::uint32_t raysPerLight);
+    void record(FrameContext& frame, const gpu::Bindings& world, const Counts& counts);
 
   private:
     gpu::ComputePass pass_;

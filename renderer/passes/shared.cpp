@@ -1,4 +1,5 @@
 // What several passes declare or do alike.
+#include "renderer/camera.h"
 #include "renderer/passes/passes.h"
 
 #include <fmt/format.h>
@@ -86,36 +87,13 @@ std::vector<std::string> tracerDefines(TraceBackEnd tracer) {
     return {};
 }
 
-namespace {
-
-// Conservative: false only if all corners of the box lie outside one side of the clip volume.
-bool mayBeSeen(const glm::dmat4& clipFromWorld, const glm::dvec3& lower, const glm::dvec3& upper) {
-    int outside[5] = {0, 0, 0, 0, 0};
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec4 p =
-            clipFromWorld * glm::dvec4(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y,
-                                       corner & 4 ? upper.z : lower.z, 1.0);
-        outside[0] += p.x < -p.w;
-        outside[1] += p.x > p.w;
-        outside[2] += p.y < -p.w;
-        outside[3] += p.y > p.w;
-        outside[4] += p.z > p.w; // before the near plane
-    }
-    for (const int count : outside) {
-        if (count == 8) return false;
-    }
-    return true;
-}
-
-} // namespace
-
 void drawVisible(VkCommandBuffer commands, const FrameContext& frame, const std::vector<DrawItem>& items) {
     vkCmdBindIndexBuffer(commands, frame.scene.indexBuffer().handle(), 0, VK_INDEX_TYPE_UINT32);
     const glm::dmat4 clipFromWorld(frame.constants.clipFromWorld);
     const glm::dvec3 anchor = frame.scene.anchor();
     int culling = -1, clockwise = -1;
     for (const DrawItem& item : items) {
-        if (!mayBeSeen(clipFromWorld, item.boundsMin - anchor, item.boundsMax - anchor)) continue;
+        if (!boxMayBeSeen(clipFromWorld, item.boundsMin - anchor, item.boundsMax - anchor)) continue;
         if (culling != int(item.cullBackFaces)) {
             culling = item.cullBackFaces;
             vkCmdSetCullMode(commands, culling ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE);

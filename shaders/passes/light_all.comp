@@ -1,12 +1,13 @@
 #version 460
-// Every light in range of each pixel with rays of its own: the method 'all-lights' and both references. Split:
-// analytic irradiance times the visibility of uniformly chosen points of the light (Heitz, Hill and McGuire,
-// "Combining Analytic Direct Illumination and Stochastic Shadows", 2018). True: the BRDF at the chosen points.
-// Terms that are zero cost no ray. Output is exposed; diffuse light is demodulated by the diffuse albedo.
+// Every light in range of each pixel: the methods 'all-lights' and 'shadow-maps' and both references. Split: analytic
+// irradiance times the visibility of uniformly chosen points of the light, by rays (Heitz, Hill and McGuire, "Combining
+// Analytic Direct Illumination and Stochastic Shadows", 2018). Maps: the same, by the light's shadow map where it has
+// one. True: the BRDF at the chosen points. Terms that are zero cost no ray. Output is exposed; diffuse light is demodulated by the diffuse albedo.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/light_grid.glsl"
 #include "lib/light_ray.glsl"
+#include "lib/shadow_map.glsl"
 #include "math/color.glsl"
 
 layout(constant_id = CHOICE_ESTIMATOR) const int kEstimator = ESTIMATOR_SPLIT;
@@ -14,6 +15,7 @@ layout(constant_id = CHOICE_ESTIMATOR) const int kEstimator = ESTIMATOR_SPLIT;
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant) uniform Push {
     uint raysPerLight;
+    uint shadowSamples; // of a shadow map, per light
 };
 layout(rgba32f) writeonly uniform image2D litDiffuseOut;
 layout(rgba32f) writeonly uniform image2D litSpecularOut;
@@ -50,7 +52,7 @@ void main() {
             if (!lightReaches(light, receiver.point)) continue;
             ++inRange;
             LightIrradiance unshadowed;
-            if (kEstimator == ESTIMATOR_SPLIT) {
+            if (kEstimator != ESTIMATOR_TRUE) {
                 unshadowed = lightIrradiance(light, receiver.point, lobe);
                 if (unshadowed.diffuse <= 0.0 && unshadowed.specular.x + unshadowed.specular.y <= 0.0) continue;
             } else {
@@ -59,12 +61,16 @@ void main() {
             }
             float sumVisible = 0.0;
             vec3 sumDiffuse = vec3(0.0), sumSpecular = vec3(0.0); // true: of emission
-            for (uint ray = 0u; ray < raysPerLight; ++ray) {
+            bool mapped = kEstimator == ESTIMATOR_MAPS && shadowMaps[slot].faceMask != 0u;
+            if (mapped)
+                sumVisible = float(raysPerLight) * shadowMapVisibility(shadowMaps[slot], receiver,
+                                                                      hashCombine(seed, slot * 16u), shadowSamples);
+            for (uint ray = 0u; ray < raysPerLight && !mapped; ++ray) {
                 uint sampleSeed = hashCombine(seed, slot * 16u + ray);
                 LightSample s;
                 bool usable = false;
                 // Split wants points above the horizon only; true draws once, a zero is part of its mean.
-                int draws = kEstimator == ESTIMATOR_SPLIT ? mostDraws(light) : 1;
+                int draws = kEstimator == ESTIMATOR_TRUE ? 1 : mostDraws(light);
                 for (int draw = 0; draw < draws && !usable; ++draw) {
                     s = lightSample(light, positionWs, whiteNoise2(sampleSeed, uint(draw)));
                     usable = s.valid && dot(receiver.point.normalWs, s.dirWs) > 0.0;
@@ -80,7 +86,7 @@ void main() {
                     sumSpecular += emission * (f0 * terms.y + vec3(terms.z));
                 }
             }
-            if (kEstimator == ESTIMATOR_SPLIT) {
+            if (kEstimator != ESTIMATOR_TRUE) {
                 sumDiffuse = unshadowed.emission * (sumVisible * unshadowed.diffuse * KX_INV_PI);
                 sumSpecular = unshadowed.specularEmission * sumVisible *
                               (f0 * unshadowed.specular.x + vec3(unshadowed.specular.y));

@@ -57,6 +57,7 @@ const int HALF_ROOKS = 2;
 
 const int ESTIMATOR_SPLIT = 0; // analytic irradiance times mean visibility
 const int ESTIMATOR_TRUE = 1;  // the BRDF at the sampled point
+const int ESTIMATOR_MAPS = 2;  // as split, but visibility by shadow maps
 
 const int TONE_MAP_NEUTRAL = 0;
 const int TONE_MAP_NONE = 1;

@@ -10,6 +10,7 @@
 #include "shaders/shared/gpu_light.h"
 #include "shaders/shared/probe.h"
 #include "shaders/shared/resampling.h"
+#include "shaders/shared/shadow_map.h"
 #include "shaders/shared/views.h"
 
 #include <bit>
@@ -113,6 +114,7 @@ STRUCT_TEST(SamplingConstants)
 STRUCT_TEST(DenoisingConstants)
 STRUCT_TEST(ViewConstants)
 STRUCT_TEST(ResamplingConstants)
+STRUCT_TEST(ShadowMap)
 STRUCT_TEST(LightPower)
 STRUCT_TEST(LightTreeNode)
 STRUCT_TEST(ProbeRequest)

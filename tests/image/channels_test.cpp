@@ -44,6 +44,7 @@ TEST(Channels, MeshLeftOutGetsExactlyNothing) {
     const Way ways[] = {{"all-lights", {}},
                         {"split", {}},
                         {"true", {}},
+                        {"shadow-maps", {}},
                         {"stochastic", {"picture=raw"}},
                         {"stochastic", {"picture=raw", "sampling=rooks"}},
                         {"uniform", {"picture=raw"}},

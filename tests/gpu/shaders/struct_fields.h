@@ -29,6 +29,9 @@
     F(antiAliasFrames) F(antiAliasClip) F(settleError)
 #define FIELDS_ResamplingConstants(F) \
     F(candidates) F(reuse) F(mostHistory) F(neighbours) F(radiusPx) F(weights)
+#define FIELDS_ShadowMap(F) \
+    F(centerWs) F(nearM) F(forwardWs) F(tanHalf) F(axisXWs) F(faceMask) F(axisYWs) F(firstTile) F(sourceXWs) \
+    F(tilePx) F(sourceYWs) F(sourceRadiusM) F(source) F(directional) F(shadowChannels) F(endBiasM)
 #define FIELDS_LightPower(F) F(keep) F(other) F(probability)
 #define FIELDS_LightTreeNode(F) \
     F(leastWs) F(slot) F(mostWs) F(second) F(axisWs) F(intensity) F(cosSpread) F(cosEmission) F(reachM) F(distant)

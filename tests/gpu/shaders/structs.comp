@@ -6,6 +6,7 @@
 #include "shared/gpu_light.h"
 #include "shared/probe.h"
 #include "shared/resampling.h"
+#include "shared/shadow_map.h"
 #include "shared/views.h"
 #include "tests/gpu/shaders/struct_fields.h"
 

@@ -1,5 +1,6 @@
 // The baselines that resample: the unbiased ones have the mean of the reference 'true', reuse takes noise
 // away and, biased, light.
+#include "tests/image/dome_scenes.h"
 #include "tests/image/loop/loop_kit.h"
 
 #include "renderer/measure/metrics.h"
@@ -62,6 +63,36 @@ TEST(Baselines, UnbiasedOnesHaveTheMeanOfTrueBiasedReuseLosesLight) {
         EXPECT_LT(ratio, 0.99) << weights;
         EXPECT_GT(ratio, 0.7) << weights;
     }
+}
+
+// Under a dome beside a local light: the tree holds it as what has no place.
+TEST(Baselines, TheTreeHasTheMeanOfTrueUnderADome) {
+    SceneBuilder b;
+    const int grey = b.material({0.6, 0.5, 0.4}, 0.0, 1.0);
+    b.quad(floorAt({0, 0, 0}), 6, 6, grey);
+    b.quad(lookingAlong({0, 1, -1}, {0, 0, -1}), 2, 2, grey);
+    b.light(lightCases()[0].def, lightCases()[0].worldFromLight);
+    b.scene.cameras.push_back(cameraLooking({0.3, 2.3, 4.6}, {0, 0.6, -0.4}));
+    Scene scene = withIds(std::move(b.scene));
+    scene.dome.image = panorama(128, gradientSky);
+    scene.dome.intensityNit = 20.0;
+    const auto optionsOf = [](const char* method) {
+        RenderOptions options = baselineOptions(method);
+        options.width = 48;
+        options.height = 32;
+        return options;
+    };
+    const auto lightBy = [&](const char* method, double error) {
+        Loop loop(scene, optionsOf(method));
+        return gather(framesOf(loop, 1), error, 150);
+    };
+    const Replicas reference = lightBy("true", 0.0015);
+    expectSameMean(lightBy("hierarchy", 0.002), reference, "hierarchy, dome", 0.0075);
+    const double both = reference.mean(Light::Luminance).mean;
+    scene.dome.intensityNit = 0.0;
+    const double without = lightBy("true", 0.01).mean(Light::Luminance).mean;
+    EXPECT_GT(without, 0.2 * both) << "both give their part";
+    EXPECT_LT(without, 0.8 * both);
 }
 
 // As published: far less noise than the resampling that it builds on, from equally many candidates. The
