@@ -27,7 +27,7 @@ struct ProbedLight {
     bool fresh = false;         // just edited
     bool candidate = false;     // weighed in this frame; only these can be chosen in it
     std::string list;           // "visible", "hidden", "directional" or "dome", of a candidate
-    std::uint32_t areaMask = 0; // quarters of the light that were seen, 4 bits; of a listed one
+    std::uint32_t areaMask = 0; // cells of 4 x 4 of the light that were seen, 16 bits; of a listed one
     std::uint32_t unseenFrames = 0;
     double weight = 0.0;             // perceptual: log2(1 + exposed luminance), estimated without shadows
     double probability = 0.0;        // that a sample of this frame goes to it

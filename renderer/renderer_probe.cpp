@@ -30,7 +30,7 @@ ProbedLight describeLight(const ProbeLight& raw, const glm::vec4* rays, const gl
     light.fresh = raw.flags & PROBE_FRESH;
     light.candidate = raw.flags & PROBE_CANDIDATE;
     light.list = listName(raw);
-    light.areaMask = (raw.entry >> ENTRY_RECENT_SHIFT | raw.entry >> ENTRY_OLDER_SHIFT) & 15u;
+    light.areaMask = raw.cells;
     light.unseenFrames = raw.entry >> ENTRY_AGE_SHIFT & 15u;
     light.weight = double(raw.weight);
     light.probability = double(raw.probability);

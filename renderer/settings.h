@@ -59,6 +59,8 @@ struct Settings {
     int listMemory = 8;
     bool areaMasks = true;
     double maskHiddenShare = 0.1;
+    double maskSize = 1.0;
+    double maskSamples = 4.0;
     double hiddenShare = 0.2;
     double missHiddenShare = 0.5;
     double hiddenSeenShare = 0.8;

@@ -38,6 +38,8 @@ SamplingConstants samplingConstants(const Settings& s) {
     c.guiding = s.guiding;
     c.areaMasks = s.areaMasks;
     c.maskHiddenShare = float(s.maskHiddenShare);
+    c.maskSizeTiles = float(s.maskSize);
+    c.maskSamples = float(s.maskSamples);
     c.hiddenShare = float(s.hiddenShare);
     c.missHiddenShare = float(s.missHiddenShare);
     c.hiddenSeenShare = float(s.hiddenSeenShare);

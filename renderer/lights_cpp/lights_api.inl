@@ -49,8 +49,11 @@ float budgetedDome(float domeSum, float localSum, float directionalSum, Selectio
 float candidateProbability(vec4 sums, SelectionBudget budget, uint list, float weight);
 LightChoice selectionSample(LightSelection s, SelectionBudget budget, uint index);
 MaskedPoint areaMaskWarp(vec2 number, uint mask, float hiddenShare);
-vec4 areaMaskShares(uint mask, float hiddenShare);
-uint areaMaskQuarter(vec2 uv);
+vec2 areaMaskShares(uint mask, float hiddenShare);
+uint areaMaskQuarters(uint mask);
+uint areaMaskColumns(uint mask);
+float areaMaskCount(uint mask);
+uint areaMaskCell(vec2 uv);
 float areaMaskPdf(vec2 uv, uint mask, float hiddenShare);
 vec2 areaMaskUnwarp(vec2 uv, uint mask, float hiddenShare);
 

@@ -41,18 +41,8 @@ uint fetchCellLight(uint at) {
 }
 #include "../math/light_walk.glsl"
 
-// The item that a candidate is known by: the slot, and above it the mask of its visible quarters.
-const uint ITEM_MASK_SHIFT = 16u;
-
 // The includer's: what looks at each candidate. `weight` is that before the threshold and the stride.
 void seeCandidate(Candidate c, float weight);
-
-// The mask that an entry gives a light: none where it is not to be trusted. What was seen for less than a window of
-// frames may be one sample of a light that the tile hardly sees: its other quarters are unknown, not hidden.
-uint maskOfEntry(VisibleEntry entry, LightHot light) {
-    bool current = entry.epoch == (light.typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK);
-    return current && entry.older != 0u && frame.sampling.areaMasks != 0u ? entry.recent | entry.older : 0u;
-}
 
 // Beside the selection: what was decided on the way.
 struct ChoiceState {
@@ -61,6 +51,7 @@ struct ChoiceState {
     uint stride; // the N of every N-th light of the cell
     uint candidates;
     uint flags; // SAMPLE_*
+    uint ownList; // first texel of that of the tile where the pixel was; KX_NO_LIGHT without any
 };
 
 // Walks the candidates of a pixel that has a surface. `stored`: the texel that holds its samples.
@@ -76,6 +67,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
 
     uint first = listTexelByChance(before.uv, whiteNoise2(seed, 8u));
     bool guided = how.guiding != 0u && frame.historyValid != 0u;
+    state.ownList = guided ? listTexelAt(before.uv) : KX_NO_LIGHT;
     uvec2 head = guided ? texelFetch(visibleLists, int(first)).xy : uvec2(0u, 0xffffffffu);
     visibleCount = min(head.x, LIST_CAPACITY);
     visibleAt = first + 1u;
@@ -107,12 +99,9 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         // What the past must give up: twice as much in the first frames, when all of it is another light's.
         float edited = (light.typeFlags & LIGHT_FLAG_EDITED) == 0u ? 0.0
                        : (light.typeFlags & LIGHT_FLAG_JUST_EDITED) == 0u ? 1.0 : SAMPLE_MOST_EDITED;
-        uint mask = 0u;
-        if (walk.maskEntry != KX_NO_LIGHT && !directional) {
-            uvec2 entry = texelFetch(visibleLists, int(visibleAt + walk.maskEntry)).xy;
-            float energy = float(entry.y);
+        if (walk.visibleEntry != KX_NO_LIGHT && !directional) {
+            float energy = float(texelFetch(visibleLists, int(visibleAt + walk.visibleEntry)).y);
             listed += vec2(energy, energy * edited);
-            mask = maskOfEntry(unpackEntry(entry.x), light);
         }
         if ((kDirectionalLights || kDome) && !directional && lightIsGlobal(light)) continue;
         float unshadowed = lightWeight(light, receiver.point, albedo, f0);
@@ -127,8 +116,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         if (kDome && lightType(light) == LIGHT_DOME) list = LIST_DOME;
         if (list != LIST_HIDDEN) likely += vec2(weight, weight * edited);
         float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
-        Candidate candidate = makeCandidate(slot | mask << ITEM_MASK_SHIFT, list, weight, state.stride, how.dimThreshold,
-                                            how.dimMode, dimNumber);
+        Candidate candidate = makeCandidate(slot, list, weight, state.stride, how.dimThreshold, how.dimMode, dimNumber);
         seeCandidate(candidate, weight);
         selectionAdd(selection, candidate);
         ++state.candidates;

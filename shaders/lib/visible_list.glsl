@@ -5,20 +5,16 @@
 
 struct VisibleEntry {
     uint slot;
-    uint epoch;  // low 4 bits of the slot's
-    uint recent; // mask of the quarters of the light's unit square that were seen in this window of frames
-    uint older;  // and in the one before
-    uint age;    // frames since a sample was last seen
+    uint epoch; // low 4 bits of the slot's
+    uint age;   // frames since a sample was last seen
 };
 
 uint packEntry(VisibleEntry e) {
-    return e.slot | e.epoch << ENTRY_EPOCH_SHIFT | e.recent << ENTRY_RECENT_SHIFT | e.older << ENTRY_OLDER_SHIFT |
-           e.age << ENTRY_AGE_SHIFT;
+    return e.slot | e.epoch << ENTRY_EPOCH_SHIFT | e.age << ENTRY_AGE_SHIFT;
 }
 
 VisibleEntry unpackEntry(uint word) {
-    return VisibleEntry(word & ENTRY_SLOT_MASK, word >> ENTRY_EPOCH_SHIFT & 15u, word >> ENTRY_RECENT_SHIFT & 15u,
-                        word >> ENTRY_OLDER_SHIFT & 15u, word >> ENTRY_AGE_SHIFT & 15u);
+    return VisibleEntry(word & ENTRY_SLOT_MASK, word >> ENTRY_EPOCH_SHIFT & 15u, word >> ENTRY_AGE_SHIFT & 15u);
 }
 
 // A list's first texel: x = length; y = entries that found no room, above them the share of the rays to lights off a
@@ -44,6 +40,11 @@ float arrivedShare(uvec2 head) {
 uint listTexel(ivec2 tile, uvec2 tiles) {
     uvec2 at = uvec2(clamp(tile, ivec2(0), ivec2(tiles) - 1));
     return (at.y * tiles.x + at.x) * LIST_TEXELS;
+}
+
+// Of the tile at a uv of the previous frame.
+uint listTexelAt(vec2 uv) {
+    return listTexel(ivec2(floor(uv * vec2(frame.previousSize) / float(LIST_TILE_PX))), frame.previousTiles);
 }
 
 // One of the four tiles nearest to a uv of the previous frame, by bilinear chance: borders between lists dissolve.

@@ -16,7 +16,7 @@ const uint KX_NO_LIGHT = 0xffffffffu;
 struct LightWalk {
     uint slot;      // the light to evaluate
     bool visible;   // it is on the visible or the fresh list; else it is a hidden one, of the cell only
-    uint maskEntry; // its index on the visible list, KX_NO_LIGHT if it is not on that one
+    uint visibleEntry; // its index on the visible list, KX_NO_LIGHT if it is not on that one
     uint visibleCount, freshCount, cellCount;
     uint stride;                           // the N of every N-th, at least 1
     uint visibleAt, freshAt, cellAt;       // where each list stands,
@@ -62,7 +62,7 @@ KX_INLINE LightWalk beginWalk(uint visibleCount, uint freshCount, uint cellCount
     LightWalk w;
     w.slot = KX_NO_LIGHT;
     w.visible = false;
-    w.maskEntry = KX_NO_LIGHT;
+    w.visibleEntry = KX_NO_LIGHT;
     w.visibleCount = visibleCount;
     w.freshCount = freshCount;
     w.cellCount = cellCount;
@@ -84,7 +84,7 @@ KX_INLINE bool nextLight(INOUT(LightWalk) w) {
     bool onVisible = w.visibleSlot == slot;
     bool onFresh = w.freshSlot == slot;
     w.visible = onVisible || onFresh;
-    w.maskEntry = onVisible ? w.visibleAt : KX_NO_LIGHT;
+    w.visibleEntry = onVisible ? w.visibleAt : KX_NO_LIGHT;
     if (onVisible) seekVisible(w, slot + 1u);
     if (onFresh) seekFresh(w, slot + 1u);
     if (w.cellSlot == slot) seekCell(w, slot + 1u);

@@ -32,7 +32,7 @@ shared vec4 sums;
 shared SelectionBudget budget;
 
 void seeCandidate(Candidate c, float weight) {
-    uint slot = c.item & SAMPLE_SLOT_MASK;
+    uint slot = c.item;
     lights[slot].flags |= PROBE_CANDIDATE;
     lights[slot].list = c.list;
     lights[slot].weight = weight;
@@ -97,6 +97,8 @@ void probeChoice(Receiver receiver, uvec2 pixel, uvec2 stored) {
         if (slot >= frame.lightCount) continue;
         lights[slot].flags |= PROBE_LISTED;
         lights[slot].entry = word;
+        uint cells = texelFetch(visibleLists, int(visibleAt - 1u + LIST_CELLS_AT + i)).x;
+        lights[slot].cells = (cells | cells >> SEEN_OLDER_SHIFT) & SEEN_MASK;
     }
     for (uint i = 0u; i < cellCount; ++i) {
         uint slot = fetchCellLight(i);

@@ -4,8 +4,7 @@
 #include "shared/features.h"
 #include "lib/count.glsl"
 #include "lib/dispatch.glsl"
-#include "lib/light_choice.glsl"
-#include "math/area_mask.glsl"
+#include "lib/light_mask.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32ui) writeonly uniform uimage2DArray samplesOut;
@@ -34,11 +33,10 @@ void main() {
         LightChoice choice = selectionSample(selection, state.budget, i);
         StoredSample s = StoredSample(0u, LIST_VISIBLE, state.flags, vec2(0.5), 0.0, 0.0);
         if (choice.item != KX_NO_ITEM) {
-            s.slot = choice.item & SAMPLE_SLOT_MASK;
+            s.slot = choice.item;
             s.list = choice.list;
-            LightHot light = loadOwnLightHot(s.slot);
-            uint mask = choice.item >> ITEM_MASK_SHIFT & 15u;
-            if (mask == 15u || lightIsCut(light, receiver.point)) mask = 0u;
+            bool local = s.list == LIST_VISIBLE || s.list == LIST_HIDDEN, masked = local && state.ownList != KX_NO_LIGHT;
+            uint mask = masked ? areaMaskOf(state.ownList, s.slot, loadOwnLightHot(s.slot), receiver) : 0u;
             MaskedPoint point = areaMaskWarp(rotatedPoint(state.noise.point, i, how.choices), mask, how.maskHiddenShare);
             s.uv = point.uv;
             s.contribution = choice.contribution / (point.pdf * float(how.rays));

@@ -29,7 +29,7 @@ void main() {
             result = tracePoint(receiver, chosen.slot, s, traced);
             countAll(COUNTER_RAYS, traced ? 1u : 0u);
             countAll(COUNTER_USEFUL_RAYS, traced && result == RAY_VISIBLE ? 1u : 0u);
-            if (result == RAY_VISIBLE) result |= areaMaskQuarter(s.uv) << RAY_QUARTER_SHIFT;
+            if (result == RAY_VISIBLE) result |= areaMaskCell(s.uv) << RAY_CELL_SHIFT;
         }
     }
     imageStore(rayResultsOut, ivec3(pixel, layer), uvec4(result));

@@ -1,6 +1,6 @@
 #version 460
 // The visible light list of each 8 x 8 tile for the next frame: lights of which a sample was visible, sorted by slot,
-// with the quarters of the light that were seen (the MegaLights talk, SIGGRAPH 2025, "Sample Guiding" and "Area Light
+// with the cells of the light that were seen (the MegaLights talk, SIGGRAPH 2025, "Sample Guiding" and "Area Light
 // Guiding"; the smallest slot by subgroup minimum is from Sousa and Geffroy, "The devil is in the details", 2016).
 // Entries of the previous list stay for some frames without being seen. A workgroup is one subgroup, so that no
 // barriers are needed; results do not depend on its size.
@@ -35,12 +35,12 @@ const uint kNone = 0xffffffffu;
 const float kArrivedRays = 32.0; // that the share of arrived ones remembers, about three frames' of a tile
 const uint kRoom = 128u; // of one layer's 64 samples and the entries before, which are at most 33 + 64 long
 
-shared uvec2 entries[2][kRoom]; // in turn the list so far and the next one
+shared uvec4 entries[2][kRoom]; // in turn the list so far and the next one; xy: as listed, zw: what was seen
 
 // The entry as it goes into this frame: older by one, windows turned, and nothing believed of an edited light.
-uvec2 carriedEntry(uvec2 texel) {
+uvec4 carriedEntry(uvec2 texel, uvec2 seen) {
     VisibleEntry e = unpackEntry(texel.x);
-    uvec2 none = uvec2(kNone, 0u);
+    uvec4 none = uvec4(kNone, uvec3(0u));
     if (e.slot >= frame.lightCount) return none;
     uint typeFlags = loadLightHot(e.slot).typeFlags;
     // A light that went out or away stays as strong as it was while its edit is fresh: pixels that meet it cap their
@@ -51,14 +51,9 @@ uvec2 carriedEntry(uvec2 texel) {
     if (e.age > frame.sampling.listMemory && !edited) return none;
     uint epoch = typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
     bool same = epoch == e.epoch;
-    if (frame.sampling.noiseFrame % ENTRY_WINDOW == 0u) {
-        e.older = e.recent;
-        e.recent = 0u;
-    }
-    e.older = same ? e.older : 0u;
-    e.recent = same ? e.recent : 0u;
+    if (frame.sampling.noiseFrame % ENTRY_WINDOW == 0u) seen <<= SEEN_OLDER_SHIFT;
     e.epoch = epoch;
-    return uvec2(packEntry(e), edited ? texel.y : texel.y - texel.y / 4u);
+    return uvec4(packEntry(e), edited ? texel.y : texel.y - texel.y / 4u, same ? seen : uvec2(0u));
 }
 
 // The bits of a directional light or the dome among those that a list's head knows.
@@ -87,7 +82,7 @@ struct Seen {
     uint hiddenArrived; // and those of them that arrived
 };
 
-// What a sample adds: x = slot, y = energy << 4 | quarter; kNone for what was not seen, or is directional.
+// What a sample adds: x = slot, y = energy << 16 | bit of the cell; kNone for what was not seen, or is directional.
 uvec2 seenSample(uvec2 pixel, uint layer, inout Seen seen) {
     if (any(greaterThanEqual(pixel, frame.size))) return uvec2(kNone, 0u);
     uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
@@ -103,51 +98,53 @@ uvec2 seenSample(uvec2 pixel, uint layer, inout Seen seen) {
         return uvec2(kNone, 0u);
     }
     uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
-    return uvec2(s.slot, energy << 4u | 1u << (result >> RAY_QUARTER_SHIFT & 3u));
+    return uvec2(s.slot, energy << 16u | 1u << (result >> RAY_CELL_SHIFT & 15u));
 }
 
 // Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
 uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Seen all) {
     uint lane = gl_LocalInvocationID.x;
-    uint slots[kPixelsPerLane], energies[kPixelsPerLane], quartersOf[kPixelsPerLane];
+    uint slots[kPixelsPerLane], adds[kPixelsPerLane];
     for (int i = 0; i < kPixelsPerLane; ++i) {
         uint at = uint(i * kLanes) + lane;
         uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, all);
         slots[i] = seen.x;
-        energies[i] = seen.y >> 4u;
-        quartersOf[i] = seen.y & 15u;
+        adds[i] = seen.y;
     }
     uint made = 0u, next = 0u;
     for (;;) {
         uint mine = kNone;
         for (int i = 0; i < kPixelsPerLane; ++i)
             mine = min(mine, slots[i]);
-        uvec2 before = next < count ? entries[from][next] : uvec2(kNone, 0u);
+        uvec4 before = next < count ? entries[from][next] : uvec4(kNone, uvec3(0u));
         uint beforeSlot = before.x == kNone ? kNone : before.x & ENTRY_SLOT_MASK;
         uint slot = min(subgroupMin(mine), beforeSlot);
         if (slot == kNone) break;
-        uint quarters = 0u, energy = 0u;
+        uint cells = 0u, energy = 0u, samplesOf = 0u;
         for (int i = 0; i < kPixelsPerLane; ++i) {
             bool same = slots[i] == slot;
-            quarters |= same ? quartersOf[i] : 0u;
-            energy += same ? energies[i] : 0u;
+            cells |= same ? adds[i] & SEEN_MASK : 0u;
+            energy += same ? adds[i] >> 16u : 0u;
+            samplesOf += same ? 1u : 0u;
             slots[i] = same ? kNone : slots[i]; // done with
         }
-        quarters = subgroupOr(quarters);
+        cells = subgroupOr(cells);
         energy = subgroupAdd(energy);
-        VisibleEntry e = VisibleEntry(slot, 0u, 0u, 0u, 0u);
+        samplesOf = subgroupAdd(samplesOf);
+        VisibleEntry e = VisibleEntry(slot, 0u, 0u);
+        uvec2 seen = uvec2(0u);
         if (beforeSlot == slot) {
             e = unpackEntry(before.x);
             energy = max(energy, before.y);
+            seen = before.zw;
             ++next;
         } else {
             e.epoch = loadLightHot(slot).typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
         }
-        if (quarters != 0u) {
-            e.recent |= quarters;
-            e.age = 0u;
-        }
-        if (lane == 0u) entries[1u - from][made] = uvec2(packEntry(e), energy);
+        if (cells != 0u) e.age = 0u;
+        seen.x |= cells;
+        seen.y += min(samplesOf, SEEN_MASK - (seen.y & SEEN_MASK));
+        if (lane == 0u) entries[1u - from][made] = uvec4(packEntry(e), energy, seen);
         ++made;
     }
     subgroupMemoryBarrierShared();
@@ -184,7 +181,8 @@ void main() {
     uint stored = min(head.x, LIST_CAPACITY);
     Seen seen = Seen(0u, 0u, 0u);
     for (uint i = lane; i < stored; i += uint(kLanes))
-        entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy);
+        entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy,
+                                     texelFetch(visibleLists, int(first + LIST_CELLS_AT + i)).xy);
     subgroupMemoryBarrierShared();
     subgroupBarrier();
     uint count = 0u, from = 0u;
@@ -217,6 +215,8 @@ void main() {
         atomicAdd(counters[COUNTER_LIST_ENTRIES], count);
         if (lost > 0u) atomicAdd(counters[COUNTER_LIST_OVERFLOW], lost);
     }
-    for (uint i = lane; i < count; i += uint(kLanes))
-        listsOut[out0 + 1u + i] = entries[from][i];
+    for (uint i = lane; i < count; i += uint(kLanes)) {
+        listsOut[out0 + 1u + i] = entries[from][i].xy;
+        listsOut[out0 + LIST_CELLS_AT + i] = entries[from][i].zw;
+    }
 }

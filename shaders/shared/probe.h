@@ -53,6 +53,7 @@ struct ProbeLight {
     uint flags;         // PROBE_*
     uint list;          // LIST_* as a candidate
     uint entry;         // of the visible list, packed; 0 where it is not on it
+    uint cells;         // of its unit square that were seen, a bit each
     float weight;       // perceptual, before the dim lights' threshold and the stride
     float offered;      // weight as a candidate
     float probability;  // that a sample of this frame goes to it

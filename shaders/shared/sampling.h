@@ -24,12 +24,11 @@ KX_CONST uint SAMPLE_RECONSTRUCTED = 1u << 20u; // no neighbour fitted when samp
 KX_CONST uint SAMPLE_LIGHT_LIMIT = 0xffffu;     // slots below this fit
 
 // What became of a sample: R32UI, one layer per ray.
-KX_CONST uint RAY_NONE = 0u; // nothing was traced: no light, or it is behind the surface
-KX_CONST uint RAY_VISIBLE =
-    1u; // with the quarter of the light's unit square in the bits from RAY_QUARTER_SHIFT
+KX_CONST uint RAY_NONE = 0u;    // nothing was traced: no light, or it is behind the surface
+KX_CONST uint RAY_VISIBLE = 1u; // with the cell of the light's unit square in 4 bits from RAY_CELL_SHIFT
 KX_CONST uint RAY_HIDDEN = 2u;
 KX_CONST uint RAY_STATE_MASK = 3u;
-KX_CONST uint RAY_QUARTER_SHIFT = 2u;
+KX_CONST uint RAY_CELL_SHIFT = 2u;
 
 // --- List of rays: a word per ray with a light, x | y << 16 of its pixel, by tiles and in them by light
 // -------
@@ -46,16 +45,20 @@ struct RayListHead {
 
 // --- Visible light lists: RG32UI texels, LIST_TEXELS a tile ---------------------------------------------
 // Texel 0: entries, and lights for which there was no room. Then the entries, sorted by slot:
-// x: slot, epoch, masks and age; y: energy, the sum over visible samples of their weights times 256
+// x: slot, epoch and age; y: energy, the sum over visible samples of their weights times 256
+// From texel LIST_CELLS_AT on, in the same order, what was seen of each light in the present window of
+// ENTRY_WINDOW frames (low 16 bits) and in the window before (high): x: cells of its unit square, a bit each
+// (math/area_mask.glsl); y: visible samples
 KX_CONST uint LIST_TILE_PX = 8u;
 KX_CONST uint LIST_CAPACITY = 32u;
-KX_CONST uint LIST_TEXELS = 33u;
+KX_CONST uint LIST_CELLS_AT = 33u;
+KX_CONST uint LIST_TEXELS = 65u;
 KX_CONST uint ENTRY_SLOT_MASK = 0xffffu;
-KX_CONST uint ENTRY_EPOCH_SHIFT = 16u;  // 4 bits, as LIGHT_EPOCH_MASK of gpu_light.h
-KX_CONST uint ENTRY_RECENT_SHIFT = 20u; // quarters seen in the present window of ENTRY_WINDOW frames
-KX_CONST uint ENTRY_OLDER_SHIFT = 24u;  // and in the window before
-KX_CONST uint ENTRY_AGE_SHIFT = 28u;    // frames since a sample of it was last seen, 0 to 15
+KX_CONST uint ENTRY_EPOCH_SHIFT = 16u; // 4 bits, as LIGHT_EPOCH_MASK of gpu_light.h
+KX_CONST uint ENTRY_AGE_SHIFT = 20u;   // frames since a sample of it was last seen, 0 to 15
 KX_CONST uint ENTRY_WINDOW = 8u;
+KX_CONST uint SEEN_OLDER_SHIFT = 16u; // of both words: the window before
+KX_CONST uint SEEN_MASK = 0xffffu;
 
 KX_CONST uint FRESH_LIGHTS = 8u;
 
@@ -68,6 +71,8 @@ struct SamplingConstants {
     uint guiding;
     uint areaMasks;
     float maskHiddenShare;
+    float maskSizeTiles; // least length of a light with a mask of quarters; twice that: of 4 x 4 cells
+    float maskSamples;   // visible ones that a mask needs for each of its cells
     float hiddenShare;
     float missHiddenShare;
     float hiddenSeenShare;

@@ -30,5 +30,6 @@ void main() {
     uvec2 sum = folded(min(pixel, last)) ^ folded(min(pixel + uvec2(0u, 4u), last));
     sum ^= texelFetch(visibleLists, int(texel + 1u + lane)).xy;
     listsOut[texel + 1u + lane] = sum;
+    listsOut[texel + LIST_CELLS_AT + lane] = texelFetch(visibleLists, int(texel + LIST_CELLS_AT + lane)).xy ^ sum;
     if (lane == 0u) listsOut[texel] = texelFetch(visibleLists, int(texel)).xy;
 }

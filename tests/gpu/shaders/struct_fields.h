@@ -20,10 +20,10 @@
     F(previousSize) F(previousTiles) F(exposureRatio) F(historyValid) F(sampling) F(denoising)
 #define FIELDS_RayListHead(F) F(groupsX) F(groupsY) F(groupsZ) F(count)
 #define FIELDS_SamplingConstants(F) \
-    F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(hiddenShare) \
-    F(missHiddenShare) F(hiddenSeenShare) F(hiddenRelaxedBelow) F(directionalShare) F(directionalFreeBelow) F(domeShare) \
-    F(cellCandidates) F(missCandidates) F(dimThreshold) F(dimMode) F(listLength) F(listMemory) \
-    F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
+    F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(maskSizeTiles) F(maskSamples) \
+    F(hiddenShare) F(missHiddenShare) F(hiddenSeenShare) F(hiddenRelaxedBelow) F(directionalShare) \
+    F(directionalFreeBelow) F(domeShare) F(cellCandidates) F(missCandidates) F(dimThreshold) F(dimMode) F(listLength) \
+    F(listMemory) F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
 #define FIELDS_DenoisingConstants(F) \
     F(diffuseFrames) F(specularFrames) F(leastFrames) F(clipWidth) F(spatialRadiusPx) F(spatialThreshold) \
     F(antiAliasFrames) F(antiAliasClip) F(settleError)
@@ -42,8 +42,8 @@
     F(roughness) F(metallic) F(instance) F(primitive) F(pictureNit) F(viewValue) F(irradianceLux) F(candidates) \
     F(cellLights) F(stride) F(listLights) F(listTile) F(missed) F(sums) F(budgeted)
 #define FIELDS_ProbeLight(F) \
-    F(flags) F(list) F(entry) F(weight) F(offered) F(probability) F(chosen) F(chosenVisible) F(rays) F(raysVisible) \
-    F(irradianceLux) F(reflectedNit)
+    F(flags) F(list) F(entry) F(cells) F(weight) F(offered) F(probability) F(chosen) F(chosenVisible) F(rays) \
+    F(raysVisible) F(irradianceLux) F(reflectedNit)
 #define FIELDS_InstanceRows(F) F(row0) F(row1) F(row2)
 #define FIELDS_GridConstants(F) \
     F(fineSize) F(coarseSize) F(firstDepthM) F(slicesPerOctave) F(lastDepthM) F(capacity) F(enabled) \

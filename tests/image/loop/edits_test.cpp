@@ -129,16 +129,17 @@ TEST(Edits, GoneLightLeavesNothing) {
     }
 }
 
-// Entries of the lists for a slot, over all tiles.
-std::vector<std::uint32_t> entriesOf(Loop& loop, std::uint32_t slot) {
+// Entries of the lists for a slot, over all tiles: the first word, and the cells that were seen.
+std::vector<glm::uvec2> entriesOf(Loop& loop, std::uint32_t slot) {
     const std::vector<glm::uvec2> texels = loop.renderer().visibleLists();
-    std::vector<std::uint32_t> words;
+    std::vector<glm::uvec2> entries;
     for (std::size_t first = 0; first < texels.size(); first += LIST_TEXELS) {
         for (std::uint32_t i = 1; i <= texels[first].x; ++i) {
-            if ((texels[first + i].x & ENTRY_SLOT_MASK) == slot) words.push_back(texels[first + i].x);
+            if ((texels[first + i].x & ENTRY_SLOT_MASK) == slot)
+                entries.push_back({texels[first + i].x, texels[first + LIST_CELLS_AT + i - 1].x});
         }
     }
-    return words;
+    return entries;
 }
 
 TEST(Edits, ListsForgetTheDeadAndTheMasksOfTheChanged) {
@@ -149,9 +150,9 @@ TEST(Edits, ListsForgetTheDeadAndTheMasksOfTheChanged) {
     EXPECT_GT(entriesOf(loop, gone).size(), 10u);
     EXPECT_GT(entriesOf(loop, changed).size(), 10u);
     const auto olderMasks = [&] {
-        const std::vector<std::uint32_t> words = entriesOf(loop, changed);
-        return std::count_if(words.begin(), words.end(),
-                             [](std::uint32_t word) { return (word >> ENTRY_OLDER_SHIFT & 15u) != 0u; });
+        const std::vector<glm::uvec2> entries = entriesOf(loop, changed);
+        return std::count_if(entries.begin(), entries.end(),
+                             [](glm::uvec2 entry) { return entry.y >> SEEN_OLDER_SHIFT != 0u; });
     };
     EXPECT_GT(olderMasks(), 10);
     deleteLight(scene, kEdited);
@@ -159,10 +160,10 @@ TEST(Edits, ListsForgetTheDeadAndTheMasksOfTheChanged) {
     loop.renderer().setLights(scene);
     loop.frames(1);
     EXPECT_EQ(olderMasks(), 0);
-    const std::vector<std::uint32_t> kept = entriesOf(loop, changed);
+    const std::vector<glm::uvec2> kept = entriesOf(loop, changed);
     EXPECT_GT(kept.size(), 10u) << "what was seen before stays on the list";
-    for (const std::uint32_t word : kept)
-        EXPECT_EQ(word >> ENTRY_EPOCH_SHIFT & 15u, 1u);
+    for (const glm::uvec2 entry : kept)
+        EXPECT_EQ(entry.x >> ENTRY_EPOCH_SHIFT & 15u, 1u);
     // A dead slot marks its tiles while the edit is fresh, no longer.
     loop.frames(int(LIGHT_EDITED_FRAMES));
     EXPECT_EQ(entriesOf(loop, gone).size(), 0u);

@@ -15,9 +15,13 @@ using namespace shared;
 
 using Texels = std::vector<glm::uvec2>;
 
-std::uint32_t entryWord(std::uint32_t slot, std::uint32_t epoch, std::uint32_t mask, std::uint32_t age) {
-    return slot | epoch << ENTRY_EPOCH_SHIFT | mask << ENTRY_RECENT_SHIFT | mask << ENTRY_OLDER_SHIFT |
-           age << ENTRY_AGE_SHIFT;
+std::uint32_t entryWord(std::uint32_t slot, std::uint32_t epoch, std::uint32_t age) {
+    return slot | epoch << ENTRY_EPOCH_SHIFT | age << ENTRY_AGE_SHIFT;
+}
+
+// What was seen of a light: these cells by so many samples, in both windows.
+glm::uvec2 seenWords(std::uint32_t cells, std::uint32_t samples) {
+    return {cells | cells << SEEN_OLDER_SHIFT, samples | samples << SEEN_OLDER_SHIFT};
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -42,8 +46,9 @@ Texels forcedLists(const MakeList& make, std::mt19937& random) {
         glm::uvec2* at = &texels[tile * LIST_TEXELS];
         at[0] = {list.count.value_or(std::uint32_t(list.slots.size())), std::uint32_t(random())};
         for (std::size_t i = 0; i < list.slots.size() && i < LIST_CAPACITY; ++i)
-            at[1 + i] = {entryWord(list.slots[i], list.epoch, list.mask, std::uint32_t(random() % 16)),
-                         random() % 5000};
+            at[1 + i] = {entryWord(list.slots[i], list.epoch, std::uint32_t(random() % 16)), random() % 5000};
+        for (std::size_t i = 0; i < list.slots.size() && i < LIST_CAPACITY; ++i)
+            at[LIST_CELLS_AT + i] = seenWords(list.mask, 200);
     }
     return texels;
 }
@@ -135,80 +140,17 @@ TEST(ListFuzz, AnyListKeepsTheMean) {
     }
 }
 
-// A quarter that was seen once says nothing of the others: masks count from their second window of frames on.
-TEST(Lists, MasksOfLessThanAWindowAreNotBelieved) {
-    SceneBuilder b;
-    b.quad(floorAt({0, 0, 0}), 4, 4, b.material({0.6, 0.6, 0.6}, 0.0, 0.9));
-    LightDef def = lightDef(LightType::Rect, 3000, LightUnit::Lumen);
-    def.widthM = def.heightM = 1.0;
-    def.rangeM = 20.0;
-    b.light(def, lookingAlong({0, 5, 0}, {0, -1, 0}));
-    b.scene.cameras.push_back(cameraLooking({0, 4, 0.01}, {0, 0, 0}));
-    RenderOptions options = loopOptions(64, 48);
-    options.keepTargets = true;
-    Loop loop(withIds(std::move(b.scene)), options);
-    loop.frames(1);
-    for (const bool seenBefore : {false, true}) {
-        Texels texels = loop.renderer().visibleLists();
-        for (std::size_t first = 0; first < texels.size(); first += LIST_TEXELS) {
-            texels[first] = {1, 0};
-            texels[first + 1] = {1u << ENTRY_RECENT_SHIFT | (seenBefore ? 1u << ENTRY_OLDER_SHIFT : 0u), 1};
-        }
-        loop.renderer().replaceVisibleLists(texels);
-        loop.frames(1);
-        double inFirst = 0.0, all = 0.0;
-        for (const PixelSample& sample : samplesOf(loop.targets())) {
-            if (sample.contribution == 0.0f) continue; // no light
-            inFirst += (sample.uv & 0xffffu) < 0x8000u && sample.uv >> 16 < 0x8000u;
-            all += 1.0;
-        }
-        EXPECT_GT(all, 1000.0);
-        EXPECT_NEAR(inFirst / all, seenBefore ? 0.7 : 0.25, 0.05);
-    }
-}
-
-// A board just under one half of a rectangle hides the same quarters from the whole floor, so that a mask
-// whose density is wrong shows in the mean.
-TEST(ListFuzz, AnyMaskOfAHalfHiddenLightKeepsTheMean) {
-    SceneBuilder b;
-    const int matt = b.material({0.6, 0.6, 0.6}, 0.0, 0.9);
-    b.quad(floorAt({0, 0, 0}), 4, 4, matt);
-    LightDef def = lightDef(LightType::Rect, 3000, LightUnit::Lumen);
-    def.widthM = def.heightM = 1.0;
-    def.rangeM = 20.0;
-    b.light(def, lookingAlong({0, 5, 0}, {0, -1, 0}));
-    b.quad(floorAt({0.25, 4.98, 0}), 0.5, 1.2, matt);
-    b.quad(floorAt({-0.25, 4.98, -0.3}), 0.5, 0.3, matt);
-    b.scene.cameras.push_back(cameraLooking({0, 4, 0.01}, {0, 0, 0}));
-    const Scene scene = withIds(std::move(b.scene));
-    const RenderOptions options = loopOptions(64, 48, {"raysPerPixel=4", "raysPerLight=16"});
-    const Replicas reference = splitReference(scene, options);
-    Loop loop(scene, options);
-    loop.frames(1);
-    std::vector<glm::uvec2> texels = loop.renderer().visibleLists();
-    for (const std::uint32_t mask : {0u, 1u, 2u, 4u, 8u, 3u}) {
-        for (std::size_t first = 0; first < texels.size(); first += LIST_TEXELS) {
-            texels[first] = {1, 0};
-            texels[first + 1] = {entryWord(0, 0, mask, 0), 1};
-        }
-        const auto replica = [&] {
-            loop.renderer().replaceVisibleLists(texels);
-            return lightOf(loop.next());
-        };
-        expectSameMean(gather(replica, 0.0011), reference, "mask " + std::to_string(mask));
-    }
-}
-
 // ---------------------------------------------------------------------------------------------------------
 // What the lists hold
 
 struct Entry {
-    std::uint32_t slot = 0, epoch = 0, recent = 0, older = 0, age = 0, energy = 0;
+    std::uint32_t slot = 0, epoch = 0, age = 0, energy = 0;
+    std::uint32_t recent = 0, older = 0, samples = 0, olderSamples = 0;
     bool operator==(const Entry&) const = default;
 };
 void PrintTo(const Entry& e, std::ostream* out) {
-    *out << "slot " << e.slot << " epoch " << e.epoch << " recent " << e.recent << " older " << e.older
-         << " age " << e.age << " energy " << e.energy;
+    *out << "slot " << e.slot << " epoch " << e.epoch << " age " << e.age << " energy " << e.energy
+         << " recent " << e.recent << " by " << e.samples << " older " << e.older << " by " << e.olderSamples;
 }
 using List = std::map<std::uint32_t, Entry>;
 
@@ -220,9 +162,15 @@ std::vector<List> readLists(const Texels& texels) {
         std::uint32_t least = 0;
         for (std::uint32_t i = 1; i <= at[0].x; ++i) {
             const std::uint32_t word = at[i].x;
-            const Entry e{word & ENTRY_SLOT_MASK,           word >> ENTRY_EPOCH_SHIFT & 15u,
-                          word >> ENTRY_RECENT_SHIFT & 15u, word >> ENTRY_OLDER_SHIFT & 15u,
-                          word >> ENTRY_AGE_SHIFT & 15u,    at[i].y};
+            const glm::uvec2 seen = at[LIST_CELLS_AT + i - 1];
+            const Entry e{word & ENTRY_SLOT_MASK,
+                          word >> ENTRY_EPOCH_SHIFT & 15u,
+                          word >> ENTRY_AGE_SHIFT & 15u,
+                          at[i].y,
+                          seen.x & SEEN_MASK,
+                          seen.x >> SEEN_OLDER_SHIFT,
+                          seen.y & SEEN_MASK,
+                          seen.y >> SEEN_OLDER_SHIFT};
             EXPECT_GE(e.slot, least) << "tile " << tile;
             least = e.slot + 1;
             lists[tile][e.slot] = e;
@@ -233,7 +181,7 @@ std::vector<List> readLists(const Texels& texels) {
 
 // A visible sample of a pixel.
 struct Seen {
-    std::uint32_t slot, quarter, energy;
+    std::uint32_t slot, cell, energy;
 };
 
 // By tile, of frames with one ray per pixel.
@@ -250,7 +198,7 @@ std::vector<std::vector<Seen>> seenByTile(const FrameTargets& targets, int width
             std::memcpy(&ray, targets.named("rayResults").texels.data() + 4 * pixel, 4);
             if ((ray & RAY_STATE_MASK) != RAY_VISIBLE || sample.list == kDirectionalList) continue;
             result[std::size_t(y / 8 * tilesX + x / 8)].push_back(
-                {sample.slot, ray >> RAY_QUARTER_SHIFT & 3u,
+                {sample.slot, ray >> RAY_CELL_SHIFT & 15u,
                  std::uint32_t(std::clamp(sample.weight * 256.0f, 1.0f, 65535.0f))});
         }
     }
@@ -264,7 +212,8 @@ List nextList(const List& before, const std::vector<Seen>& seen, std::uint32_t f
         if (++e.age > memory) continue;
         if (frame % ENTRY_WINDOW == 0) {
             e.older = e.recent;
-            e.recent = 0;
+            e.olderSamples = e.samples;
+            e.recent = e.samples = 0;
         }
         e.energy -= e.energy / 4;
         list[slot] = e;
@@ -273,7 +222,8 @@ List nextList(const List& before, const std::vector<Seen>& seen, std::uint32_t f
     for (const Seen& s : seen) {
         Entry& e = list[s.slot];
         e.slot = s.slot;
-        e.recent |= 1u << s.quarter;
+        e.recent |= 1u << s.cell;
+        ++e.samples;
         e.age = 0;
         energy[s.slot] += s.energy;
     }
@@ -316,7 +266,7 @@ TEST(Lists, HoldWhatTheSamplesSaw) {
                 for (const auto& [slot, e] : after[tile]) {
                     ++entries;
                     carried += e.age > 0;
-                    masks += (e.recent | e.older) != 15u;
+                    masks += (e.recent | e.older) != 0xffffu;
                 }
             }
             before = after;
@@ -328,9 +278,9 @@ TEST(Lists, HoldWhatTheSamplesSaw) {
     }
 }
 
-// The quarter that a ray reports is that of the sample, but where a point below the horizon was drawn again.
+// The cell that a ray reports is that of the sample, but where a point below the horizon was drawn again.
 // Of rectangles and disks: round lights may mirror a point to the side that is seen.
-TEST(Lists, QuartersAreThoseOfTheSamples) {
+TEST(Lists, CellsAreThoseOfTheSamples) {
     RenderOptions options = loopOptions(64, 48, {"areaMasks=false"});
     options.keepTargets = true;
     Loop loop(crowdScene(24, 6), options);
@@ -343,9 +293,9 @@ TEST(Lists, QuartersAreThoseOfTheSamples) {
         std::uint32_t ray;
         std::memcpy(&ray, targets.named("rayResults").texels.data() + 4 * pixel, 4);
         if ((ray & RAY_STATE_MASK) != RAY_VISIBLE || sample.slot % 7 > 1) continue;
-        const std::uint32_t column = (sample.uv & 0xffffu) >= 0x8000u, row = (sample.uv >> 16) >= 0x8000u;
+        const std::uint32_t column = (sample.uv & 0xffffu) >> 14, row = sample.uv >> 30;
         ++visible;
-        same += (ray >> RAY_QUARTER_SHIFT & 3u) == column + 2 * row;
+        same += (ray >> RAY_CELL_SHIFT & 15u) == column + 4 * row;
     }
     EXPECT_GT(visible, 200);
     EXPECT_GT(same, 0.97 * visible);

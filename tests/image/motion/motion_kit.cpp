@@ -115,7 +115,8 @@ std::vector<std::uint32_t> slotsOfTile(const std::vector<glm::uvec2>& lists, std
 void setOneEntry(std::vector<glm::uvec2>& lists, std::size_t tile, std::uint32_t slot) {
     const std::size_t first = tile * shared::LIST_TEXELS;
     lists[first] = {1u, 0u};
-    lists[first + 1] = {slot | 15u << shared::ENTRY_RECENT_SHIFT, 256u};
+    lists[first + 1] = {slot, 256u};
+    lists[first + shared::LIST_CELLS_AT] = {0xffffu, 64u};
 }
 
 SceneBuilder bareFloor() {

@@ -50,6 +50,8 @@ TEST(SamplingConstants, TheRestIsPassedOn) {
     settings.guiding = false;
     settings.areaMasks = false;
     settings.maskHiddenShare = 0.05;
+    settings.maskSize = 2.0;
+    settings.maskSamples = 9.0;
     settings.hiddenShare = 0.3;
     settings.missHiddenShare = 0.6;
     settings.hiddenSeenShare = 0.7;
@@ -63,6 +65,8 @@ TEST(SamplingConstants, TheRestIsPassedOn) {
     EXPECT_EQ(c.guiding, 0u);
     EXPECT_EQ(c.areaMasks, 0u);
     EXPECT_FLOAT_EQ(c.maskHiddenShare, 0.05f);
+    EXPECT_FLOAT_EQ(c.maskSizeTiles, 2.0f);
+    EXPECT_FLOAT_EQ(c.maskSamples, 9.0f);
     EXPECT_FLOAT_EQ(c.hiddenShare, 0.3f);
     EXPECT_FLOAT_EQ(c.missHiddenShare, 0.6f);
     EXPECT_FLOAT_EQ(c.hiddenSeenShare, 0.7f);

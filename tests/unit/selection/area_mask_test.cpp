@@ -1,6 +1,8 @@
-// The 2x2 area mask: shares, density, inverse, continuity, stratification, ends of the range in float.
+// The area mask of 4 x 4 cells: shares, density, inverse, continuity, stratification, ends of the range in
+// float.
 #include "tests/unit/selection/selection_kit.h"
 
+#include <bit>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -9,64 +11,111 @@ namespace {
 
 constexpr double kHiddenShare = 0.1;
 
+// The cells of some quarters: bit column + 2 * row.
+uint ofQuarters(uint quarters) {
+    uint mask = 0;
+    for (uint quarter = 0; quarter < 4; ++quarter)
+        if ((quarters >> quarter & 1u) != 0) mask |= 0x33u << (quarter % 2 * 2 + quarter / 2 * 8);
+    return mask;
+}
+
+// All masks of quarters, all of columns, and some others.
+std::vector<uint> someMasks() {
+    std::vector<uint> masks;
+    for (uint bits = 0; bits < 16; ++bits) {
+        masks.push_back(ofQuarters(bits));
+        masks.push_back(bits * 0x1111u);
+    }
+    std::mt19937 random(4);
+    for (int i = 0; i < 32; ++i)
+        masks.push_back(static_cast<uint>(random() & random() & 0xffffu));
+    return masks;
+}
+
+double shareOf(uint mask, uint cell, double hiddenShare) {
+    const f64::vec2 shares = f64::areaMaskShares(mask, hiddenShare);
+    return (mask >> cell & 1u) != 0 ? shares.y : shares.x;
+}
+
 TEST(AreaMask, SharesAreTheRule) {
     const double visibleByCount[] = {0.25, 0.7, 0.4, 0.3, 0.25};
-    for (uint mask = 0; mask < 16; ++mask) {
-        const f64::vec4 shares = f64::areaMaskShares(mask, kHiddenShare);
-        const uint count = (mask & 1u) + (mask >> 1 & 1u) + (mask >> 2 & 1u) + (mask >> 3 & 1u);
-        double sum = 0.0;
-        for (int quarter = 0; quarter < 4; ++quarter) {
-            const bool visible = (mask >> quarter & 1u) != 0 || count == 0;
-            EXPECT_NEAR(shares[quarter], visible ? visibleByCount[count] : 0.1, 1e-12)
-                << mask << ", " << quarter;
-            sum += shares[quarter];
+    for (uint quarters = 0; quarters < 16; ++quarters) {
+        const uint count = static_cast<uint>(std::popcount(quarters));
+        for (uint cell = 0; cell < 16; ++cell) {
+            const bool visible = (ofQuarters(quarters) >> cell & 1u) != 0 || count == 0;
+            EXPECT_NEAR(4.0 * shareOf(ofQuarters(quarters), cell, kHiddenShare),
+                        visible ? visibleByCount[count] : 0.1, 1e-12)
+                << quarters << ", " << cell;
         }
+    }
+    for (const uint mask : someMasks()) {
+        double sum = 0.0;
+        for (uint cell = 0; cell < 16; ++cell)
+            sum += shareOf(mask, cell, kHiddenShare);
         EXPECT_NEAR(sum, 1.0, 1e-12);
+        EXPECT_EQ(f64::areaMaskCount(mask), double(std::popcount(mask)));
         for (const double share : {-1.0, 0.0, 0.001, 0.25, 0.9})
-            for (int quarter = 0; quarter < 4; ++quarter)
-                EXPECT_GT(f64::areaMaskShares(mask, share)[quarter], 0.0009);
+            EXPECT_GT(f64::areaMaskShares(mask, share).x, 0.0002);
     }
 }
 
-// Each quarter gets its share of the square, at the reported density, with no pattern left out or doubled.
-TEST(AreaMask, QuartersGetTheirShareAtTheirDensity) {
+TEST(AreaMask, QuartersAndColumnsAreThoseOfTheCells) {
+    for (uint cell = 0; cell < 16; ++cell) {
+        const uint column = cell % 4, row = cell / 4;
+        EXPECT_EQ(f64::areaMaskCell({(column + 0.5) / 4, (row + 0.5) / 4}), cell);
+        EXPECT_EQ(f64::areaMaskQuarters(1u << cell), ofQuarters(1u << (column / 2 + row / 2 * 2)));
+        EXPECT_EQ(f64::areaMaskColumns(1u << cell), 0x1111u << column);
+    }
+    for (const uint mask : someMasks()) {
+        uint quarters = 0, columns = 0;
+        for (uint cell = 0; cell < 16; ++cell) {
+            quarters |= (mask >> cell & 1u) != 0 ? f64::areaMaskQuarters(1u << cell) : 0u;
+            columns |= (mask >> cell & 1u) != 0 ? f64::areaMaskColumns(1u << cell) : 0u;
+        }
+        EXPECT_EQ(f64::areaMaskQuarters(mask), quarters);
+        EXPECT_EQ(f64::areaMaskColumns(mask), columns);
+    }
+}
+
+// Each cell gets its share of the square, at the reported density, with no pattern left out or doubled.
+TEST(AreaMask, CellsGetTheirShareAtTheirDensity) {
     const int grid = 400;
-    for (uint mask = 0; mask < 16; ++mask) {
-        const f64::vec4 shares = f64::areaMaskShares(mask, kHiddenShare);
-        f64::vec4 counts(0.0);
+    for (const uint mask : someMasks()) {
+        double counts[16] = {};
         double inverseDensity = 0.0;
         double moment = 0.0; // of x + 2 y^2 over the square: 1/2 + 2/3
         for (int y = 0; y < grid; ++y)
             for (int x = 0; x < grid; ++x) {
                 const f64::vec2 number((x + 0.5) / grid, (y + 0.5) / grid);
                 const f64::MaskedPoint p = f64::areaMaskWarp(number, mask, kHiddenShare);
-                const uint quarter = f64::areaMaskQuarter(p.uv);
-                counts[static_cast<int>(quarter)] += 1.0 / (grid * grid);
-                EXPECT_NEAR(p.pdf, 4.0 * shares[static_cast<int>(quarter)], 1e-12);
+                const uint cell = f64::areaMaskCell(p.uv);
+                counts[cell] += 1.0 / (grid * grid);
+                EXPECT_NEAR(p.pdf, 16.0 * shareOf(mask, cell, kHiddenShare), 1e-12);
                 EXPECT_EQ(p.pdf, f64::areaMaskPdf(p.uv, mask, kHiddenShare));
                 inverseDensity += 1.0 / p.pdf / (grid * grid);
                 moment += (p.uv.x + 2.0 * p.uv.y * p.uv.y) / p.pdf / (grid * grid);
             }
-        for (int quarter = 0; quarter < 4; ++quarter)
-            EXPECT_NEAR(counts[quarter], shares[quarter], 2.0 / grid) << mask;
+        for (uint cell = 0; cell < 16; ++cell)
+            EXPECT_NEAR(counts[cell], shareOf(mask, cell, kHiddenShare), 2.0 / grid) << mask;
         EXPECT_NEAR(inverseDensity, 1.0, 0.01) << mask;
         EXPECT_NEAR(moment, 0.5 + 2.0 / 3.0, 0.01) << mask;
     }
 }
 
-// The map is continuous in a quarter and its Jacobian is 1 / density.
+// The map is continuous in a cell and its Jacobian is 1 / density.
 TEST(AreaMask, ContinuousWithTheDensityAsJacobian) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     const double step = 1e-6;
-    for (int i = 0; i < 20000; ++i) {
-        const uint mask = static_cast<uint>(i) % 16;
+    const std::vector<uint> masks = someMasks();
+    for (std::size_t i = 0; i < 20000; ++i) {
+        const uint mask = masks[i % masks.size()];
         const f64::vec2 number(uniform(random) * 0.999, uniform(random) * 0.999);
         const f64::MaskedPoint p = f64::areaMaskWarp(number, mask, kHiddenShare);
         const f64::MaskedPoint px = f64::areaMaskWarp(number + f64::vec2(step, 0.0), mask, kHiddenShare);
         const f64::MaskedPoint py = f64::areaMaskWarp(number + f64::vec2(0.0, step), mask, kHiddenShare);
-        const uint quarter = f64::areaMaskQuarter(p.uv);
-        if (f64::areaMaskQuarter(px.uv) != quarter || f64::areaMaskQuarter(py.uv) != quarter) continue;
+        const uint cell = f64::areaMaskCell(p.uv);
+        if (f64::areaMaskCell(px.uv) != cell || f64::areaMaskCell(py.uv) != cell) continue;
         const f64::vec2 dx = (px.uv - p.uv) / step;
         const f64::vec2 dy = (py.uv - p.uv) / step;
         EXPECT_NEAR((dx.x * dy.y - dx.y * dy.x) * p.pdf, 1.0, 1e-5);
@@ -79,8 +128,9 @@ TEST(AreaMask, ContinuousWithTheDensityAsJacobian) {
 TEST(AreaMask, InverseOfTheWarp) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> uniform(0.0, 0.9999);
-    for (int i = 0; i < 20000; ++i) {
-        const uint mask = static_cast<uint>(i) % 16;
+    const std::vector<uint> masks = someMasks();
+    for (std::size_t i = 0; i < 20000; ++i) {
+        const uint mask = masks[i % masks.size()];
         const f64::vec2 number(uniform(random), uniform(random));
         const f64::MaskedPoint p = f64::areaMaskWarp(number, mask, kHiddenShare);
         const f64::vec2 back = f64::areaMaskUnwarp(p.uv, mask, kHiddenShare);
@@ -93,13 +143,13 @@ TEST(AreaMask, InverseOfTheWarp) {
     }
 }
 
-// 64 x 64 stratified numbers: any box inside a quarter holds its expected count but for the strata its edges
+// 64 x 64 stratified numbers: any box inside a cell holds its expected count but for the strata its edges
 // cut, which independent points would miss by the square root of the count.
 TEST(AreaMask, StratificationIsKept) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     const int strata = 64;
-    for (uint mask = 1; mask < 15; ++mask) {
+    for (const uint mask : someMasks()) {
         std::vector<f64::vec2> points;
         for (int y = 0; y < strata; ++y)
             for (int x = 0; x < strata; ++x)
@@ -122,9 +172,10 @@ TEST(AreaMask, StratificationIsKept) {
 }
 
 TEST(AreaMask, EndsOfTheRangeInFloat) {
-    for (uint mask = 0; mask < 16; ++mask)
+    for (const uint mask : someMasks())
         for (const float hidden : {0.0f, 0.1f, 0.2f, 0.25f}) {
-            const f32::vec4 shares = f32::areaMaskShares(mask, hidden);
+            const f32::vec2 shares = f32::areaMaskShares(mask, hidden);
+            const float lower = f32::areaMaskCount(mask & 255u) * (shares.y - shares.x) + 8.0f * shares.x;
             std::vector<float> edges = {0.0f,
                                         0.1f,
                                         0.25f,
@@ -133,9 +184,9 @@ TEST(AreaMask, EndsOfTheRangeInFloat) {
                                         0.7f,
                                         0.8f,
                                         1.0f,
-                                        shares.x + shares.y,
+                                        lower,
                                         shares.x / (shares.x + shares.y),
-                                        shares.z / (shares.z + shares.w)};
+                                        shares.y / (shares.x + shares.y)};
             std::vector<float> values;
             for (const float edge : edges)
                 for (const float value : {std::nextafter(edge, 0.0f), edge, std::nextafter(edge, 1.0f)})
@@ -144,8 +195,8 @@ TEST(AreaMask, EndsOfTheRangeInFloat) {
                 for (const float x : values) {
                     const f32::MaskedPoint p = f32::areaMaskWarp({x, y}, mask, hidden);
                     ASSERT_TRUE(p.uv.x >= 0.0f && p.uv.x < 1.0f && p.uv.y >= 0.0f && p.uv.y < 1.0f);
-                    const uint quarter = f32::areaMaskQuarter(p.uv);
-                    ASSERT_EQ(p.pdf, 4.0f * shares[static_cast<int>(quarter)]);
+                    const bool visible = (mask >> f32::areaMaskCell(p.uv) & 1u) != 0;
+                    ASSERT_EQ(p.pdf, 16.0f * (visible ? shares.y : shares.x));
                     ASSERT_EQ(p.pdf, f32::areaMaskPdf(p.uv, mask, hidden));
                     const f32::vec2 back = f32::areaMaskUnwarp(p.uv, mask, hidden);
                     ASSERT_TRUE(back.x >= 0.0f && back.x < 1.0f && back.y >= 0.0f && back.y < 1.0f);

@@ -132,7 +132,7 @@ TEST(Estimator, PointsAreIndependentOfTheChoice) {
             const f64::LightSelection s = select(candidates, numbers, count);
             for (uint k = 0; k < count; ++k) {
                 const f64::LightChoice c = f64::selectionSample(s, defaultBudget(), k);
-                const f64::MaskedPoint p = f64::areaMaskWarp(f64::rotatedPoint(point, k, count), 1, 0.1);
+                const f64::MaskedPoint p = f64::areaMaskWarp(f64::rotatedPoint(point, k, count), 0x33, 0.1);
                 const double light = 1.0 + (2.0 * p.uv.x - 1.0) + (2.0 * p.uv.y - 1.0);
                 mean[c.item] += light * c.contribution / p.pdf / (count * pixels);
             }

@@ -40,7 +40,7 @@ using walk::uint;
 struct Visit {
     uint slot;
     bool visible;
-    uint maskEntry;
+    uint visibleEntry;
 };
 
 std::vector<Visit> visits(uint stride, uint offset) {
@@ -48,7 +48,7 @@ std::vector<Visit> visits(uint stride, uint offset) {
     walk::LightWalk w = walk::beginWalk(uint(walk::gVisible.size()), uint(walk::gFresh.size()),
                                         uint(walk::gCell.size()), stride, offset);
     while (walk::nextLight(w)) {
-        all.push_back({w.slot, w.visible, w.maskEntry});
+        all.push_back({w.slot, w.visible, w.visibleEntry});
         if (all.size() > 10000) ADD_FAILURE() << "no end";
         if (all.size() > 10000) break;
     }
@@ -79,9 +79,9 @@ void expectEachOnce(uint stride, const char* what) {
             last = visit.slot;
             ASSERT_EQ(visit.visible, visible.count(visit.slot) == 1) << what << ": " << visit.slot;
             const bool onVisible = effective(walk::gVisible).count(visit.slot) == 1;
-            ASSERT_EQ(visit.maskEntry != walk::KX_NO_LIGHT, onVisible) << what;
+            ASSERT_EQ(visit.visibleEntry != walk::KX_NO_LIGHT, onVisible) << what;
             if (onVisible) {
-                ASSERT_EQ(walk::gVisible.at(visit.maskEntry), visit.slot) << what;
+                ASSERT_EQ(walk::gVisible.at(visit.visibleEntry), visit.slot) << what;
             }
             if (!visit.visible) ++hiddenVisits[visit.slot];
         }
@@ -124,7 +124,7 @@ TEST(LightWalk, PlainLists) {
     for (std::size_t i = 0; i < all.size(); ++i) {
         EXPECT_EQ(all[i].slot, expected[i].slot);
         EXPECT_EQ(all[i].visible, expected[i].visible);
-        EXPECT_EQ(all[i].maskEntry, expected[i].maskEntry);
+        EXPECT_EQ(all[i].visibleEntry, expected[i].visibleEntry);
     }
 }
 
