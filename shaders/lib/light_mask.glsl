@@ -19,11 +19,11 @@ uint placeOfSlot(uint first, uint slot) {
 }
 
 // A mask for areaMaskWarp, 0 where nothing is known that is to be trusted. It is that of the pixel's own tile, whatever
-// tile's list the light was chosen from: a lit pixel that takes a neighbour's, in half shadow, has most of its light by
+// tile's list the light was chosen from: a lit pixel that takes a neighbour's, in half shadow, has much of its light by
 // the few rays to what that one does not see (squared error in `cornell` 1.08 of that without masks; by its own tile's
-// 0.95). A light that is small beside the tile is seen whole or not at all in all but few pixels, so that a mask can only
-// err: it has none. A large one has 4 x 4 cells, a tube 4 columns along it. What is without a sample is
-// hidden only where there were enough of them, from two windows of frames.
+// 0.96). A light that is small beside the tile is seen whole or not at all by most pixels, so that a mask can only err:
+// it has none. A large one has 4 x 4 cells, a tube 4 columns along it. A cell without a sample counts as hidden only
+// where there were enough samples, from two windows of frames.
 uint areaMaskOf(uint list, uint slot, LightHot light, Receiver receiver) {
     SamplingConstants how = frame.sampling;
     if (how.areaMasks == 0u) return 0u;
@@ -35,8 +35,8 @@ uint areaMaskOf(uint list, uint slot, LightHot light, Receiver receiver) {
     if (place == LIST_CAPACITY) return 0u;
     VisibleEntry entry = unpackEntry(texelFetch(visibleLists, int(list + 1u + place)).x);
     if (entry.epoch != (light.typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK)) return 0u;
-    uvec2 recent = texelFetch(visibleLists, int(list + LIST_CELLS_AT + place)).xy & SEEN_MASK;
-    uvec2 older = texelFetch(visibleLists, int(list + LIST_CELLS_AT + place)).xy >> SEEN_OLDER_SHIFT;
+    uvec2 seen = texelFetch(visibleLists, int(list + LIST_CELLS_AT + place)).xy;
+    uvec2 recent = seen & SEEN_MASK, older = seen >> SEEN_OLDER_SHIFT;
     float samples = float(recent.y + older.y);
     if (older.x == 0u || samples < 4.0 * how.maskSamples) return 0u;
     uint mask = recent.x | older.x;

@@ -35,8 +35,10 @@ void main() {
         if (choice.item != KX_NO_ITEM) {
             s.slot = choice.item;
             s.list = choice.list;
-            bool local = s.list == LIST_VISIBLE || s.list == LIST_HIDDEN, masked = local && state.ownList != KX_NO_LIGHT;
-            uint mask = masked ? areaMaskOf(state.ownList, s.slot, loadOwnLightHot(s.slot), receiver) : 0u;
+            bool local = s.list == LIST_VISIBLE || s.list == LIST_HIDDEN;
+            uint mask = 0u;
+            if (local && state.ownList != KX_NO_LIGHT)
+                mask = areaMaskOf(state.ownList, s.slot, loadOwnLightHot(s.slot), receiver);
             MaskedPoint point = areaMaskWarp(rotatedPoint(state.noise.point, i, how.choices), mask, how.maskHiddenShare);
             s.uv = point.uv;
             s.contribution = choice.contribution / (point.pdf * float(how.rays));
