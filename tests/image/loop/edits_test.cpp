@@ -162,7 +162,7 @@ TEST(Edits, ListsForgetTheDeadAndTheMasksOfTheChanged) {
     EXPECT_EQ(olderMasks(), 0);
     const std::vector<glm::uvec2> kept = entriesOf(loop, changed);
     EXPECT_GT(kept.size(), 10u) << "what was seen before stays on the list";
-    for (const glm::uvec2 entry : kept)
+    for (const glm::uvec2& entry : kept)
         EXPECT_EQ(entry.x >> ENTRY_EPOCH_SHIFT & 15u, 1u);
     // A dead slot marks its tiles while the edit is fresh, no longer.
     loop.frames(int(LIGHT_EDITED_FRAMES));
