@@ -155,7 +155,7 @@ void main() {
     if (lane == 0u) probeSurface(receiver, pixel);
     if (!receiver.exists || request.lights == 0u) return; // the same for all lanes
     for (uint slot = lane; slot < frame.lightCount; slot += PROBE_LANES)
-        lights[slot] = ProbeLight(0u, LIST_HIDDEN, 0u, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, vec3(0.0), vec3(0.0));
+        lights[slot] = ProbeLight(0u, LIST_HIDDEN, 0u, 0u, 0.0, 0.0, 0.0, 0u, 0u, 0u, 0u, vec3(0.0), vec3(0.0));
     if (lane == 0u) sums = vec4(0.0);
     memoryBarrierBuffer();
     barrier();
