@@ -1,5 +1,6 @@
 """Every light type and shaping in a bay of its own, the same things in each: a sphere, a box, a rough and a smooth
-strip of floor. Fifteen bays, three shelves of five, a plate with its name under each."""
+strip of floor. Eighteen bays, three shelves of six, a plate with its name under each. Lighting channels keep the sun in
+its bay, and the last light of the middle shelf from its box."""
 import math
 
 import numpy as np
@@ -13,6 +14,8 @@ from kit.transform import look_at, rotate_x, rotate_y, translate
 from profiles import profiles
 
 WIDE_M, HIGH_M, DEEP_M = 2.0, 1.7, 1.6
+COLUMNS = 6
+SUN_CHANNELS, BOX_CHANNELS = 2, 4
 BOARD_M = 0.1    # thickness of shelves and walls between bays
 PLATE_M = 0.16   # height of the fascia that carries the names
 
@@ -73,13 +76,17 @@ def bays():
         ("SPOT", spot("spot")),
         ("TUBE", Light("tube", "tube", 600.0, "lumen", radius_m=0.02, length_m=1.2, **common)),
         ("DISK", Light("disk", "disk", 600.0, "lumen", width_m=0.45, **common)),
-        ("RECT", rect("rect")),
-        ("DOORS", rect("doors", door_angle_rad=0.35, door_length_m=0.3)),
-        ("FLAPS", rect("flaps", shaping=doors)),
-        ("PICTURE", rect("picture", pictures=(("sourceTexture", stripes()),))),
         ("IES SHAPE", Light("profile", "sphere", 700.0, "lumen", radius_m=0.05,
                             shaping=(("iesUse", "shape"), ("iesIntensity", False)),
                             profile=shapes["wall_washer.ies"].text(), **common)),
+        ("RECT", rect("rect")),
+        ("PENUMBRA", rect("penumbra", shaping=(("penumbraScale", 0.15),))),
+        ("DOORS", rect("doors", door_angle_rad=0.35, door_length_m=0.3)),
+        ("FLAPS", rect("flaps", shaping=doors)),
+        ("PICTURE", rect("picture", pictures=(("sourceTexture", stripes()),))),
+        ("CHANNELS", rect("channels")),
+        ("SUN", Light("sun", "directional", 150.0, "lux", temperature_k=5200.0, angular_diameter_rad=0.02,
+                      shaping=(("channels", SUN_CHANNELS), ("channelsCast", False)))),
         ("IES MASK", spot("profile mask", shaping=(("iesUse", "mask"),), profile=shapes["bollard_ring.ies"].text())),
         ("GRID", spot("grid", shaping=(("lightFunction", "grid"), ("lightFunctionScale", 0.2), *function))),
         ("BLINDS", spot("blinds", shaping=(("lightFunction", "blinds"), ("lightFunctionScale", 0.16),
@@ -105,36 +112,49 @@ def shelves(columns, rows):
     return model
 
 
-def things():
+def box(model):
+    return model.add(PAINT, bevel_box(0.34, 0.5, 0.34, 0.008), translate(0.42, 0.252, -0.1) @ rotate_y(0.5))
+
+
+def things(name):
     """What stands in every bay; its floor's middle is the origin."""
-    model = Model("things")
+    model = Model(name)
     half = (WIDE_M - BOARD_M) / 4
     for material, x in ((ROUGH, -half), (SMOOTH, half)):
         model.add(material, quad(2 * half, DEEP_M - 0.04), translate(x, 0.002, 0) @ rotate_x(-math.pi / 2))
-    model.add(PLASTER, sphere(0.22, 40, 20), translate(-0.42, 0.222, 0.1))
-    model.add(PAINT, bevel_box(0.34, 0.5, 0.34, 0.008), translate(0.42, 0.252, -0.1) @ rotate_y(0.5))
-    return model
+    return model.add(PLASTER, sphere(0.22, 40, 20), translate(-0.42, 0.222, 0.1))
 
 
 def build():
     list_of_bays = bays()
-    columns, rows = 5, len(list_of_bays) // 5
+    columns, rows = COLUMNS, len(list_of_bays) // COLUMNS
     scene = Scene("sampler", 5.6)
     scene.node("shelves", model=shelves(columns, rows))
-    shared = things()
+    shared, fewer, alone = box(things("things")), things("things without a box"), box(Model("box"))
+    wall = Model("wall").add(WALL, quad(WIDE_M - BOARD_M, HIGH_M - BOARD_M))
     stem = Model("fixture").add(FIXTURE, bevel_box(0.1, 0.06, 0.1, 0.006))
     for i, (word, light) in enumerate(list_of_bays):
         x, y = (i % columns + 0.5) * WIDE_M, (rows - 1 - i // columns) * HIGH_M
         bay = scene.node(f"bay {word.lower()}", matrix=translate(x, y, -DEEP_M / 2))
-        scene.node("things", bay, model=shared)
+        sunny = light.type == "directional"
+        if word == "CHANNELS":
+            scene.node("things", bay, model=fewer)
+            scene.node("box", bay, model=alone, channels=BOX_CHANNELS)
+        else:
+            scene.node("things", bay, model=shared, channels=SUN_CHANNELS if sunny else None)
         label = Model(f"label {word}").add(plate(word), quad(PLATE_M * 8, PLATE_M, unit_uv=True))
         scene.node("label", bay, translate(0, -BOARD_M / 2 + 0.0, DEEP_M / 2 + 0.012), model=label)
         top = HIGH_M - BOARD_M
+        if sunny:
+            scene.node("wall", bay, translate(0, (HIGH_M - BOARD_M) / 2, 0.004 - DEEP_M / 2), model=wall,
+                       channels=SUN_CHANNELS)
+            scene.node(light.name, bay, rotate_y(1.1) @ rotate_x(-0.8), light=light)
+            continue
         scene.node("fixture", bay, translate(0, top - 0.03, 0.1), model=stem)
         scene.node(light.name, bay, translate(0, top - 0.2, 0.1) @ rotate_x(-math.pi / 2 + 0.12), light=light)
     width, height = columns * WIDE_M, rows * HIGH_M
     middle = (width / 2, height / 2 - 0.05, -0.6)
-    scene.camera("wide", look_at((width / 2, height / 2 + 0.1, 7.2), middle), math.radians(46))
-    scene.camera("doors", look_at((3.1, 2.55, 2.2), (4.1, 2.35, -0.8)), math.radians(38))
+    scene.camera("wide", look_at((width / 2, height / 2 + 0.1, 7.6), middle), math.radians(46))
+    scene.camera("doors", look_at((5.1, 2.55, 2.2), (6.1, 2.35, -0.8)), math.radians(38))
     scene.camera("masks", look_at((6.6, 0.95, 2.4), (6.9, 0.65, -0.8)), math.radians(42))
     return scene

@@ -19,6 +19,7 @@ class Node:
     def __init__(self, name, parent, matrix):
         self.name, self.parent, self.matrix = name, parent, matrix
         self.model = self.light = self.camera = None
+        self.channels = None  # of its mesh, bits; None: those that every light reaches
         self.children = []
 
     def world(self):
@@ -42,9 +43,9 @@ class Scene:
         self.nodes = []
         self.animations = []  # (name, [Channel])
 
-    def node(self, name, parent=None, matrix=None, model=None, light=None):
+    def node(self, name, parent=None, matrix=None, model=None, light=None, channels=None):
         n = Node(name, parent, np.eye(4) if matrix is None else matrix)
-        n.model, n.light = model, light
+        n.model, n.light, n.channels = model, light, channels
         self.nodes.append(n)
         if parent is not None:
             parent.children.append(n)
@@ -237,6 +238,8 @@ class _Writer:
             out["scale"] = _clean(s, 5)
         if node.model is not None:
             out["mesh"] = self.mesh(node.model)
+        if node.channels is not None:
+            out["extras"] = {"kilolux": {"meshChannels": node.channels}}
         if node.camera is not None:
             self.json["cameras"].append(node.camera)
             out["camera"] = len(self.json["cameras"]) - 1
