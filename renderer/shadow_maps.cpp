@@ -1,6 +1,7 @@
 #include "renderer/shadow_maps.h"
 
 #include "renderer/camera.h"
+#include "renderer/gpu/filled_buffer.h"
 #include "renderer/lights_cpp/light_tables.h"
 #include "renderer/lights_cpp/lights_f32.h"
 
@@ -242,7 +243,6 @@ void ShadowMaps::forgetChanged(const ShadowLayout& before) {
         stands_.clear();
     }
     stands_.resize(layout_.maps.size() * SHADOW_FACES);
-    const std::size_t bytes = layout_.maps.size() * sizeof(ShadowMap);
     bool changed = layout_.maps.size() != before.maps.size();
     for (std::size_t slot = 0; slot < layout_.maps.size(); ++slot) {
         const bool same = slot < before.maps.size() &&
@@ -252,9 +252,7 @@ void ShadowMaps::forgetChanged(const ShadowLayout& before) {
         std::fill_n(stands_.begin() + std::ptrdiff_t(slot * SHADOW_FACES), SHADOW_FACES, char(0));
     }
     if (maps_ && !changed) return;
-    maps_ = gpu::Buffer(device_, {"shadowMaps", bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                  gpu::MemoryUse::DeviceOnly, "shadow maps"});
-    maps_.upload(layout_.maps);
+    maps_ = gpu::storageBuffer(device_, "shadowMaps", layout_.maps, "shadow maps");
 }
 
 void ShadowMaps::makeImage() {

@@ -73,7 +73,7 @@ KX_INLINE float extentAlong(LightExtent e, vec3 dirWs) {
 
 // Whether a part of the light may be below the horizon of a receiver, or is behind barn doors. Below the horizon
 // points are drawn again until one is above, and points between doors are those of the part that is seen: masks of
-// the whole light's quarters fit neither.
+// the whole light's cells fit neither.
 KX_INLINE bool lightIsCut(LightHot light, ShadingPoint point) {
     LightExtent e = lightExtent(light, point.positionWs);
     float slackM = 1.0e-3 * (e.halfLengthM + e.halfWidthM); // tangents are rounded

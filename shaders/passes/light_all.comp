@@ -2,7 +2,8 @@
 // Every light in range of each pixel: the methods 'all-lights' and 'shadow-maps' and both references. Split: analytic
 // irradiance times the visibility of uniformly chosen points of the light, by rays (Heitz, Hill and McGuire, "Combining
 // Analytic Direct Illumination and Stochastic Shadows", 2018). Maps: the same, by the light's shadow map where it has
-// one. True: the BRDF at the chosen points. Terms that are zero cost no ray. Output is exposed; diffuse light is demodulated by the diffuse albedo.
+// one. True: the BRDF at the chosen points. Terms that are zero cost no ray. Output is exposed; diffuse light is
+// demodulated by the diffuse albedo.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/light_grid.glsl"

@@ -76,25 +76,25 @@ uint seenSuns(uint headY, uint seenNow) {
 }
 
 // What the samples of a lane's pixels tell beside the lights that they saw.
-struct Seen {
+struct Tally {
     uint suns;          // bits of those of a list's head
     uint hiddenRays;    // to lights off the list,
     uint hiddenArrived; // and those of them that arrived
 };
 
 // What a sample adds: x = slot, y = energy << 16 | bit of the cell; kNone for what was not seen, or is directional.
-uvec2 seenSample(uvec2 pixel, uint layer, inout Seen seen) {
+uvec2 seenSample(uvec2 pixel, uint layer, inout Tally tally) {
     if (any(greaterThanEqual(pixel, frame.size))) return uvec2(kNone, 0u);
     uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
     bool visible = (result & RAY_STATE_MASK) == RAY_VISIBLE;
     StoredSample s = unpackSample(texelFetch(samples, ivec3(pixel, layer), 0));
     if (s.list == LIST_HIDDEN && s.contribution > 0.0) {
-        ++seen.hiddenRays;
-        seen.hiddenArrived += visible ? 1u : 0u;
+        ++tally.hiddenRays;
+        tally.hiddenArrived += visible ? 1u : 0u;
     }
     if (!visible) return uvec2(kNone, 0u);
     if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) {
-        seen.suns |= bitsOfSun(s.slot);
+        tally.suns |= bitsOfSun(s.slot);
         return uvec2(kNone, 0u);
     }
     uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
@@ -102,12 +102,12 @@ uvec2 seenSample(uvec2 pixel, uint layer, inout Seen seen) {
 }
 
 // Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
-uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Seen all) {
+uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Tally tally) {
     uint lane = gl_LocalInvocationID.x;
     uint slots[kPixelsPerLane], adds[kPixelsPerLane];
     for (int i = 0; i < kPixelsPerLane; ++i) {
         uint at = uint(i * kLanes) + lane;
-        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, all);
+        uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, tally);
         slots[i] = seen.x;
         adds[i] = seen.y;
     }
@@ -154,8 +154,8 @@ uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Seen all) {
 
 // The share of the rays to lights off the list that arrive: what those lights give for which there is no room. A
 // running mean over rays, rounded by chance so that small steps are not lost.
-uint arrivedBits(uvec2 tile, uvec2 head, Seen seen) {
-    float rays = float(subgroupAdd(seen.hiddenRays)), arrived = float(subgroupAdd(seen.hiddenArrived));
+uint arrivedBits(uvec2 tile, uvec2 head, Tally tally) {
+    float rays = float(subgroupAdd(tally.hiddenRays)), arrived = float(subgroupAdd(tally.hiddenArrived));
     float before = arrivedShare(head);
     float share = before + (arrived - rays * before) / (rays + kArrivedRays);
     float chance = whiteNoise1(pixelSeed(tile, frame.sampling.noiseFrame, frame.seed), 24u);
@@ -179,7 +179,7 @@ void main() {
     uint first = listTexel(ivec2(before.uv * vec2(frame.previousSize) / float(LIST_TILE_PX)), frame.previousTiles);
     uvec2 head = frame.historyValid != 0u ? texelFetch(visibleLists, int(first)).xy : uvec2(0u);
     uint stored = min(head.x, LIST_CAPACITY);
-    Seen seen = Seen(0u, 0u, 0u);
+    Tally tally = Tally(0u, 0u, 0u);
     for (uint i = lane; i < stored; i += uint(kLanes))
         entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy,
                                      texelFetch(visibleLists, int(first + LIST_CELLS_AT + i)).xy);
@@ -195,7 +195,7 @@ void main() {
     subgroupBarrier();
     uint wanted = min(frame.sampling.listLength, LIST_CAPACITY), lost = 0u;
     for (uint layer = 0u; layer < frame.sampling.rays; ++layer) {
-        count = mergeLayer(tile, layer, from, count, seen);
+        count = mergeLayer(tile, layer, from, count, tally);
         from = 1u - from;
         while (count > wanted) {
             if (lane == 0u) dropWeakest(from, count);
@@ -206,9 +206,9 @@ void main() {
         subgroupBarrier();
     }
     // Where there is room, what arrived is on the list from now on, and nothing is to be expected of the others.
-    if (lost == 0u) seen.hiddenArrived = 0u;
-    uint more = arrivedBits(tile, head, seen);
-    if (kDirectionalLights || kDome) more |= seenSuns(head.y, subgroupOr(seen.suns)) << HEAD_SUNS_SHIFT;
+    if (lost == 0u) tally.hiddenArrived = 0u;
+    uint more = arrivedBits(tile, head, tally);
+    if (kDirectionalLights || kDome) more |= seenSuns(head.y, subgroupOr(tally.suns)) << HEAD_SUNS_SHIFT;
     uint out0 = (tile.y * frame.tiles.x + tile.x) * LIST_TEXELS;
     if (lane == 0u) {
         listsOut[out0] = uvec2(count, min(lost, HEAD_LOST_MASK) | more);

@@ -44,7 +44,7 @@ struct RayListHead {
 };
 
 // --- Visible light lists: RG32UI texels, LIST_TEXELS a tile ---------------------------------------------
-// Texel 0: entries, and lights for which there was no room. Then the entries, sorted by slot:
+// Texel 0, the head: entries, and what lib/visible_list.glsl packs beside. Then the entries, sorted by slot:
 // x: slot, epoch and age; y: energy, the sum over visible samples of their weights times 256
 // From texel LIST_CELLS_AT on, in the same order, what was seen of each light in the present window of
 // ENTRY_WINDOW frames (low 16 bits) and in the window before (high): x: cells of its unit square, a bit each
