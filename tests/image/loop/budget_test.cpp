@@ -69,9 +69,10 @@ TEST(DirectionalBudget, LampsIndoorsKeepTheirShare) {
 }
 
 TEST(DirectionalBudget, SunOutdoorsTakesAll) {
-    EXPECT_EQ(sunShare(sunScene(false, 0, 0.0), {}), 1.0);
     const Scene dusk = sunScene(false, 4, 0.02); // lamps under the sum at which the budget begins
     EXPECT_GT(sunShare(dusk, {}), 0.95);
+    EXPECT_NEAR(sunShare(dusk, {"dimLights=keep", "directionalFreeBelow=0"}), 0.5, 0.02)
+        << "without that sum the same lamps would take half";
     const RenderOptions options = loopOptions(64, 48);
     Loop loop(dusk, options);
     expectSameMean(gather(framesOf(loop)), splitReference(dusk, options), "sun and weak lamps");
