@@ -90,7 +90,8 @@ constexpr std::array kRows = {
                .min = 0.25,
                .max = 16.0,
                .unit = "rays per pixel and frame",
-               .help = "shadow rays of the methods with a fixed budget"},
+               .help = "shadow rays of the methods with a fixed budget; "
+                       "below 1 it counts as the next of 0.25, 0.5 and 1, above as the nearest whole number"},
     SettingRow{.name = "raysPerLight",
                .member = &Settings::raysPerLight,
                .min = 1,
