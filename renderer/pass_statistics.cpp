@@ -93,9 +93,8 @@ void describePasses(const std::deque<FrameTimes>& frames, const std::vector<std:
             for (const auto& [pass, ms] : frame)
                 if (pass == name) values.push_back(ms);
         const double median = percentile(values, 0.5);
-        statistics.passes.push_back({name, median, percentile(values, 0.95)});
-        // What runs now and then counts by how often it did.
         const double perFrameMs = median * double(values.size()) / double(frames.size());
+        statistics.passes.push_back({name, median, percentile(values, 0.95), perFrameMs});
         statistics.frameMs += perFrameMs;
         if (std::find(lighting.begin(), lighting.end(), name) != lighting.end())
             statistics.directLightingMs += perFrameMs;

@@ -16,6 +16,7 @@ struct PassTiming {
     std::string name;
     double medianMs = 0.0; // over the rendered frames
     double p95Ms = 0.0;
+    double perFrameMs = 0.0; // the median times the share of the frames in which it ran
 };
 
 struct MemoryCause {
