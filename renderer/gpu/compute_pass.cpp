@@ -49,6 +49,8 @@ VkPipeline ComputePass::create(const SpecValues& features) const {
         found != features.end() && device_.canRequireSubgroupSize()) {
         lanes.requiredSubgroupSize = found->second;
         info.stage.pNext = &lanes;
+        // Such passes take a workgroup for one subgroup, and so do without barriers.
+        info.stage.flags |= VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT;
     }
     info.layout = layout_;
     VkPipeline pipeline;

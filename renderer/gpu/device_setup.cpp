@@ -11,6 +11,9 @@ namespace kilolux::gpu {
 
 namespace {
 
+// Passes whose workgroup is one subgroup give each lane at least one pixel of an 8 x 8 tile.
+constexpr std::uint32_t kMostLanes = 64;
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onValidationMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                                    VkDebugUtilsMessageTypeFlagsEXT,
                                                    const VkDebugUtilsMessengerCallbackDataEXT* data,
@@ -97,6 +100,7 @@ void enableFeatures(const FeatureChain& supported, bool rayQuery, bool subgroupS
     enabled.of13.dynamicRendering = VK_TRUE;
     enabled.of13.maintenance4 = VK_TRUE;
     enabled.of13.subgroupSizeControl = subgroupSizes ? VK_TRUE : VK_FALSE;
+    enabled.of13.computeFullSubgroups = subgroupSizes ? VK_TRUE : VK_FALSE;
     enabled.of12.scalarBlockLayout = VK_TRUE;
     enabled.of12.hostQueryReset = VK_TRUE;
     enabled.of12.timelineSemaphore = VK_TRUE;
@@ -207,7 +211,7 @@ void Device::choosePhysicalDevice() {
     properties2.pNext = &driver;
     vkGetPhysicalDeviceProperties2(physicalDevice_, &properties2);
     driver_ = fmt::format("{} {}", driver.driverName, driver.driverInfo);
-    subgroupSize_ = subgroup.subgroupSize;
+    subgroupSize_ = std::min(subgroup.subgroupSize, kMostLanes);
     canRequireSubgroupSize_ = (sizes.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
                               sizes.minSubgroupSize <= subgroupSize_ &&
                               subgroupSize_ <= sizes.maxSubgroupSize;
@@ -231,7 +235,8 @@ void Device::createDevice() {
     }
     FeatureChain supported, enabled;
     readSupport(physicalDevice_, supported);
-    canRequireSubgroupSize_ = canRequireSubgroupSize_ && supported.of13.subgroupSizeControl;
+    canRequireSubgroupSize_ =
+        canRequireSubgroupSize_ && supported.of13.subgroupSizeControl && supported.of13.computeFullSubgroups;
     hasGeometryShader_ = supported.first.features.geometryShader;
     enableFeatures(supported, hasRayQuery_, canRequireSubgroupSize_, enabled);
 

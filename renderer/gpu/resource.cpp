@@ -4,6 +4,7 @@
 #include "commands.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <utility>
 
 namespace kilolux::gpu {
@@ -13,6 +14,14 @@ namespace kilolux::gpu {
 Buffer::Buffer(Device& device, BufferDesc desc) : device_(&device), desc_(std::move(desc)) {
     const VkDeviceSize askedBytes = desc_.bytes;
     desc_.bytes = std::max<VkDeviceSize>(desc_.bytes, 16);
+    if (desc_.texelFormat != VK_FORMAT_UNDEFINED) {
+        const VkDeviceSize texels = askedBytes / texelBytes(desc_.texelFormat);
+        if (texels > device.limits().maxTexelBufferElements) {
+            throw DeviceError(fmt::format("'{}' takes {} texels, and device '{}' allows {} in a buffer",
+                                          desc_.name, texels, device.name(),
+                                          device.limits().maxTexelBufferElements));
+        }
+    }
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = desc_.bytes;
     info.usage = desc_.usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;

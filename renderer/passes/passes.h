@@ -34,12 +34,13 @@ struct FrameContext {
     const gpu::Buffer* replacedDiffuse = nullptr;
     const gpu::Buffer* replacedSpecular = nullptr;
 
-    // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl.
-    gpu::GroupCount tiles() const { return {constants.tiles.x * constants.tiles.y}; }
+    // One workgroup of 8 x 8 per tile, in the order of lib/dispatch.glsl. In two dimensions, as devices may
+    // stop at 65,535 groups in one, which are 4 million pixels.
+    gpu::GroupCount tiles() const { return {constants.tiles.x, constants.tiles.y}; }
     // The same over the shown picture.
     gpu::GroupCount outputTiles() const {
         const glm::uvec2 count = (constants.outputSize + 7u) / 8u;
-        return {count.x * count.y};
+        return {count.x, count.y};
     }
 };
 

@@ -51,7 +51,7 @@ void SampleLightsPass::record(FrameContext& frame) {
                           {"DirectionalSlots", frame.scene.directionalSlots()},
                           {"samplesOut", half ? targets.samplesHalf : targets.samples},
                           {"Counters", frame.counters}}}),
-                 {tiles.x * tiles.y});
+                 {tiles.x, tiles.y});
 }
 
 UpsampleSamplesPass::UpsampleSamplesPass(gpu::PassResources& resources)
@@ -88,7 +88,7 @@ void CompactRaysPass::record(FrameContext& frame, std::uint32_t layer) {
                   {"rayResultsOut", frame.targets.rayResults},
                   {"litDiffuseOut", frame.targets.litDiffuse},
                   {"litSpecularOut", frame.targets.litSpecular}},
-                 glm::uvec2(layer, onlyRay), {tiles.x * tiles.y});
+                 glm::uvec2(layer, onlyRay), {tiles.x, tiles.y});
 }
 
 TraceSamplesPass::TraceSamplesPass(gpu::PassResources& resources, TraceBackEnd tracer)

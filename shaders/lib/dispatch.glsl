@@ -6,12 +6,11 @@
 #include "tile_order.glsl"
 
 uvec2 dispatchedPixelOf(uvec2 tiles) {
-    uvec2 tile = interleavedTile(gl_WorkGroupID.x, tiles, frame.tileChunks);
+    uvec2 tile = dispatchedTile(tiles, frame.tileChunks);
     return tile * 8u + blockedPixel(gl_LocalInvocationIndex, 2u);
 }
 
-// Pixel of an invocation of an 8 x 8 workgroup in a one-dimensional dispatch over frame.tiles. May lie outside
-// the picture: such lanes stay alive for barriers and subgroup operations.
+// Pixel of an invocation of an 8 x 8 workgroup in a dispatch over frame.tiles. May lie outside the picture.
 uvec2 dispatchedPixel() {
     return dispatchedPixelOf(frame.tiles);
 }
@@ -26,8 +25,8 @@ bool isInPicture(uvec2 pixel) {
 layout(constant_id = CHOICE_PIXEL_ROWS) const bool kPixelRows = false;
 uvec2 streamedPixelOf(uvec2 size) {
     uvec2 tiles = (size + 7u) / 8u;
-    if (!kPixelRows) return interleavedTile(gl_WorkGroupID.x, tiles, frame.tileChunks) * 8u + gl_LocalInvocationID.xy;
-    uint run = interleavedTile(gl_WorkGroupID.x, uvec2(tiles.x * tiles.y, 1u), frame.tileChunks).x;
+    if (!kPixelRows) return dispatchedTile(tiles, frame.tileChunks) * 8u + gl_LocalInvocationID.xy;
+    uint run = interleavedTile(dispatchedGroup(tiles), uvec2(tiles.x * tiles.y, 1u), frame.tileChunks).x;
     uint at = run * 64u + gl_LocalInvocationIndex;
     uint row = quotientOf24Bits(at, size.x);
     return uvec2(at - row * size.x, row);

@@ -24,6 +24,8 @@ layout(scalar) readonly buffer DirectionalSlots {
     uint directionalSlots[];
 };
 
+const uint kFirstDimNumber = 256u; // dimension of a dim light's number is this and its slot; below are others
+
 uint visibleAt; // texel of the list's first entry
 uint visibleCount;
 uint cellFirst;
@@ -61,7 +63,8 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
     bool atHalf = kHalfSampling != HALF_OFF;
     uint seed = pixelSeed(pixel, how.noiseFrame, frame.seed);
     Reprojection before = reproject(pixel);
-    float foundM = surfaceDepthM(texelFetch(previousSurface, ivec2(before.uv * vec2(frame.previousSize)), 0));
+    vec2 beforePx = clamp(before.uv, 0.0, 1.0) * vec2(frame.previousSize);
+    float foundM = surfaceDepthM(texelFetch(previousSurface, min(ivec2(beforePx), ivec2(frame.previousSize) - 1), 0));
     float cosView = dot(receiver.surface.geoNormalWs, receiver.point.viewDirWs);
     bool missed = !before.onScreen || !sameDepth(foundM, before.depthM, cosView);
 
@@ -115,7 +118,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         uint list = directional ? LIST_DIRECTIONAL : (walk.visible ? LIST_VISIBLE : LIST_HIDDEN);
         if (kDome && lightType(light) == LIGHT_DOME) list = LIST_DOME;
         if (list != LIST_HIDDEN) likely += vec2(weight, weight * edited);
-        float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, 16u + slot) : 0.0;
+        float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, kFirstDimNumber + slot) : 0.0;
         Candidate candidate = makeCandidate(slot, list, weight, state.stride, how.dimThreshold, how.dimMode, dimNumber);
         seeCandidate(candidate, weight);
         selectionAdd(selection, candidate);

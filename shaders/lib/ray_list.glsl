@@ -17,7 +17,8 @@ const uvec2 kNoPixel = uvec2(0xffffffffu);
 // Outside the picture where there is nothing to do.
 uvec2 pixelOfRay(uint layer) {
     if (!kCompactRays) return dispatchedPixel();
-    uint at = gl_WorkGroupID.x * RAY_GROUP + gl_LocalInvocationIndex;
+    uint group = gl_WorkGroupID.y * RAY_GROUPS_ROW + gl_WorkGroupID.x;
+    uint at = group * RAY_GROUP + gl_LocalInvocationIndex;
     if (at >= rayListHeads[layer].count) return kNoPixel;
     uint word = texelFetch(rayList, int(at)).x;
     return uvec2(word & 0xffffu, word >> 16u);

@@ -27,6 +27,17 @@ KX_INLINE uvec2 interleavedTile(uint group, uvec2 tileCount, uint chunks) {
     return uvec2(tile % tileCount.x, tile / tileCount.x);
 }
 
+#ifndef __cplusplus
+// The workgroup's number in a dispatch of one per tile, row by row.
+uint dispatchedGroup(uvec2 tileCount) {
+    return gl_WorkGroupID.y * tileCount.x + gl_WorkGroupID.x;
+}
+
+uvec2 dispatchedTile(uvec2 tileCount, uint chunks) {
+    return interleavedTile(dispatchedGroup(tileCount), tileCount, chunks);
+}
+#endif
+
 // Place of the at-th pixel of a tile that is 4 * blocksPerRow (a power of two) pixels wide: eight successive ones are a
 // block of 4 x 2, so that the lanes of a short subgroup look at nearly the same (primary rays take 0.92 of the time of
 // rows of 8, choices of lights 0.96, on lavapipe). Longer subgroups hold the same pixels in either order.

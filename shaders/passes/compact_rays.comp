@@ -61,7 +61,7 @@ void shareAcrossLanes() {
 void main() {
     uint lane = gl_LocalInvocationID.x, lanes = uint(kLanes);
     uvec2 tiles = (frame.size + RAY_TILE_PX - 1u) / RAY_TILE_PX;
-    uvec2 corner = interleavedTile(gl_WorkGroupID.x, tiles, frame.tileChunks) * RAY_TILE_PX;
+    uvec2 corner = dispatchedTile(tiles, frame.tileChunks) * RAY_TILE_PX;
     for (uint i = lane; i < kBuckets; i += lanes)
         places[i] = 0u;
     shareAcrossLanes();
@@ -81,11 +81,12 @@ void main() {
     uint first = 0u;
     if (subgroupElect()) {
         first = atomicAdd(rayListHeads[layer].count, count);
-        if (count > 0u) atomicMax(rayListHeads[layer].groupsX, (first + count + RAY_GROUP - 1u) / RAY_GROUP);
-        if (gl_WorkGroupID.x == 0u) {
-            rayListHeads[layer].groupsY = 1u;
-            rayListHeads[layer].groupsZ = 1u;
+        uint groups = (first + count + RAY_GROUP - 1u) / RAY_GROUP;
+        if (count > 0u) {
+            atomicMax(rayListHeads[layer].groupsX, min(groups, RAY_GROUPS_ROW));
+            atomicMax(rayListHeads[layer].groupsY, (groups + RAY_GROUPS_ROW - 1u) / RAY_GROUPS_ROW);
         }
+        if (dispatchedGroup(tiles) == 0u) rayListHeads[layer].groupsZ = 1u;
     }
     first = subgroupBroadcastFirst(first);
     for (uint i = lane; i < kPixels; i += lanes) {

@@ -5,6 +5,7 @@
 // one. True: the BRDF at the chosen points. Terms that are zero cost no ray. Output is exposed; diffuse light is
 // demodulated by the diffuse albedo.
 #include "shared/features.h"
+#include "lib/count.glsl"
 #include "lib/dispatch.glsl"
 #include "lib/light_grid.glsl"
 #include "lib/light_ray.glsl"
@@ -27,10 +28,6 @@ layout(scalar) readonly buffer GridCells {
 layout(scalar) readonly buffer GridIndices {
     uint gridIndices[];
 };
-layout(scalar) buffer Counters {
-    uint counters[];
-};
-
 void main() {
     uvec2 pixel = dispatchedPixel();
     if (!isInPicture(pixel)) return;
@@ -97,11 +94,11 @@ void main() {
             specular += sumSpecular * exposed;
             shining += sumVisible > 0.0 ? 1u : 0u;
         }
-        atomicAdd(counters[COUNTER_RAYS], rays);
-        atomicAdd(counters[COUNTER_LIGHTS_IN_RANGE], inRange);
-        atomicAdd(counters[COUNTER_LIGHTS_TESTED], cell.count);
-        atomicAdd(counters[COUNTER_SURFACE_PIXELS], 1u);
-        atomicAdd(counters[COUNTER_COUNTED_PIXELS], 1u);
+        countAll(COUNTER_RAYS, rays);
+        countAll(COUNTER_LIGHTS_IN_RANGE, inRange);
+        countAll(COUNTER_LIGHTS_TESTED, cell.count);
+        countAll(COUNTER_SURFACE_PIXELS, 1u);
+        countAll(COUNTER_COUNTED_PIXELS, 1u);
     }
     imageStore(litDiffuseOut, at, vec4(diffuse, 1.0));
     imageStore(litSpecularOut, at, vec4(specular, 1.0));

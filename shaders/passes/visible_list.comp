@@ -51,7 +51,7 @@ uvec4 carriedEntry(uvec2 texel, uvec2 seen) {
     if (e.age > frame.sampling.listMemory && !edited) return none;
     uint epoch = typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
     bool same = epoch == e.epoch;
-    if (frame.sampling.noiseFrame % ENTRY_WINDOW == 0u) seen <<= SEEN_OLDER_SHIFT;
+    if (frame.frame % ENTRY_WINDOW == 0u) seen <<= SEEN_OLDER_SHIFT;
     e.epoch = epoch;
     return uvec4(packEntry(e), edited ? texel.y : texel.y - texel.y / 4u, same ? seen : uvec2(0u));
 }
@@ -173,7 +173,7 @@ void dropWeakest(uint from, uint count) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    uvec2 tile = interleavedTile(gl_WorkGroupID.x, frame.tiles, frame.tileChunks);
+    uvec2 tile = dispatchedTile(frame.tiles, frame.tileChunks);
     uvec2 middle = min(tile * LIST_TILE_PX + LIST_TILE_PX / 2u, frame.size - 1u);
     Reprojection before = reproject(middle);
     uint first = listTexel(ivec2(before.uv * vec2(frame.previousSize) / float(LIST_TILE_PX)), frame.previousTiles);

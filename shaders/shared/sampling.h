@@ -30,10 +30,10 @@ KX_CONST uint RAY_HIDDEN = 2u;
 KX_CONST uint RAY_STATE_MASK = 3u;
 KX_CONST uint RAY_CELL_SHIFT = 2u;
 
-// --- List of rays: a word per ray with a light, x | y << 16 of its pixel, by tiles and in them by light
-// -------
+// --- List of rays: a word per ray, x | y << 16 of its pixel, by tiles and in them by light --------------
 KX_CONST uint RAY_TILE_PX = 32u;
 KX_CONST uint RAY_GROUP = 64u; // rays that a workgroup takes
+KX_CONST uint RAY_GROUPS_ROW = 32768u; // workgroups in a dispatch's first dimension, of which devices allow 65,535
 
 // How long the list is. The first three words are the arguments of an indirect dispatch over it.
 struct RayListHead {
