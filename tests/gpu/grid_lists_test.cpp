@@ -365,6 +365,13 @@ TEST_F(GridListsTest, CellsBeforeAndBehindTheSurfacesAreSkipped) {
     };
     EXPECT_EQ(*filled.begin(), sliceOf(1.0));
     EXPECT_EQ(*filled.rbegin(), sliceOf(1.2));
+    // Nothing is tested against what no surface is in, not even against a coarse cell.
+    const std::uint32_t side = shared::GRID_COARSE, columns = 4 * 4;
+    const std::uint32_t slices = sliceOf(1.2) - sliceOf(1.0) + 1,
+                        coarse = sliceOf(1.2) / side - sliceOf(1.0) / side + 1;
+    EXPECT_LE(lists.use.tests, 300 * (coarse + columns * slices));
+    rig.setDepths(std::vector<float>(256 * 128, shared::DEPTH_SKY));
+    EXPECT_EQ(rig.run(shared::GRID_MAX_THREAD_LIGHTS).use.tests, 0u);
 }
 
 } // namespace
