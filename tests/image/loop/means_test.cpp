@@ -36,6 +36,7 @@ TEST(Means, ResolutionsAndRaysKeepThem) {
     expectUnbiased({{"checkerboard", {"sampling=checkerboard"}},
                     {"rooks", {"sampling=rooks"}},
                     {"4 rays", {"raysPerPixel=4"}},
+                    {"16 rays", {"raysPerPixel=16"}},
                     {"1/4 ray", {"raysPerPixel=0.25"}, 4},
                     {"1/4 ray, rooks", {"sampling=rooks", "raysPerPixel=0.25"}, 4}});
 }

@@ -71,8 +71,9 @@ struct Mode {
     double rays;
     double share; // of the pixels that have a turn
 };
-constexpr Mode kModes[] = {{"full", 1, 1.0},         {"full", 4, 1.0},  {"full", 0.25, 0.25},
-                           {"checkerboard", 1, 1.0}, {"rooks", 4, 1.0}, {"rooks", 0.5, 0.5}};
+constexpr Mode kModes[] = {{"full", 1, 1.0},   {"full", 4, 1.0},         {"full", 0.25, 0.25},
+                           {"full", 16, 1.0},  {"checkerboard", 1, 1.0}, {"rooks", 4, 1.0},
+                           {"rooks", 0.5, 0.5}};
 constexpr std::size_t kFullModes = 3; // the first ones
 
 // At the border of the light's reach, full modes may lose `borderLoss` of the picture's light.
