@@ -17,7 +17,7 @@ KX_CONST uint GRID_MAX_THREAD_LIGHTS =
 struct GridCell {
     uint first;    // into the index list
     uint count;    // lights, sorted by slot
-    uint typeMask; // bit per LIGHT_* type
+    uint typeMask; // bit per LIGHT_* type: for shaders by class of tile, which lavapipe gains nothing by
 };
 
 // Words of the buffer `GridCounters`.
