@@ -19,10 +19,15 @@ namespace kilolux {
 
 namespace {
 
-// KILOLUX_VALIDATION=1: core and synchronization; =gpu: GPU-assisted. Any message fails the render.
-gpu::Validation wantedValidation() {
+std::string_view validationWord() {
     const char* text = std::getenv("KILOLUX_VALIDATION");
-    const std::string_view value = text ? text : "";
+    return text ? text : "";
+}
+
+// KILOLUX_VALIDATION=1: core and synchronization; =passes: with a command buffer for every pass, so that
+// hazards between passes are seen; =gpu: GPU-assisted. Any message fails the render.
+gpu::Validation wantedValidation() {
+    const std::string_view value = validationWord();
     if (value.empty() || value == "0") return gpu::Validation::Off;
     return value == "gpu" ? gpu::Validation::GpuAssisted : gpu::Validation::On;
 }
@@ -30,6 +35,7 @@ gpu::Validation wantedValidation() {
 gpu::DeviceOptions deviceOptions() {
     gpu::DeviceOptions options;
     options.validation = wantedValidation();
+    options.commandBufferPerPass = validationWord() == "passes";
     if (const char* name = std::getenv("KILOLUX_DEVICE"); name && *name) options.nameContains = name;
     return options;
 }
