@@ -40,6 +40,7 @@ void Renderer::Impl::describeCounters() {
     statistics.raysPerPixelMean = ratio(COUNTER_RAYS, COUNTER_SURFACE_PIXELS);
     statistics.usefulRaysPerPixelMean = ratio(COUNTER_USEFUL_RAYS, COUNTER_SURFACE_PIXELS);
     statistics.missedShare = ratio(COUNTER_MISSED, COUNTER_SURFACE_PIXELS);
+    statistics.droppedLightMean = ratio(COUNTER_DROPPED, COUNTER_SURFACE_PIXELS) / DROPPED_STEPS;
     const double tiles = double(constants.tiles.x) * constants.tiles.y * options.frames;
     statistics.listLengthMean = double(counted[COUNTER_LIST_ENTRIES]) / tiles;
     statistics.listOverflowMean = double(counted[COUNTER_LIST_OVERFLOW]) / tiles;

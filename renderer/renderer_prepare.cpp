@@ -242,6 +242,7 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     constants.sampling = samplingConstants(options.settings);
     features[shared::CHOICE_WHITE_NOISE] = options.settings.noise == Noise::White;
     features[shared::CHOICE_HALF_SAMPLING] = std::uint32_t(options.settings.sampling);
+    features[shared::CHOICE_DIM_DROP] = options.settings.dimLights == DimLights::Drop;
     plan.resampling = resamplingConstants(plan.method, options.settings);
     features[shared::CHOICE_DRAW_FROM] = std::uint32_t(drawnFrom(plan.method, options.settings));
     if (plan.resamples()) constants.sampling.rays = 1;

@@ -36,6 +36,7 @@ nlohmann::ordered_json statisticsJson(const FrameStatistics& s, const Settings& 
                         {"raysPerPixelMean", s.raysPerPixelMean},
                         {"usefulRaysPerPixelMean", s.usefulRaysPerPixelMean},
                         {"missedShare", s.missedShare},
+                        {"droppedLightMean", s.droppedLightMean},
                         {"listLengthMean", s.listLengthMean},
                         {"listOverflowMean", s.listOverflowMean}};
     json["triangles"] = s.triangles;

@@ -47,9 +47,10 @@ struct FrameStatistics {
     double raysPerPixelMean = 0.0;       // traced, per pixel that shows a surface and may sample
     double usefulRaysPerPixelMean = 0.0; // those that met their light
     double missedShare = 0.0;            // pixels whose reprojection failed
-    double listLengthMean = 0.0;         // lights on a tile's visible list
-    double listOverflowMean = 0.0;       // lights for which it had no room
-    std::size_t triangles = 0;           // instances counted each
+    double droppedLightMean = 0.0; // share of the unshadowed light a pixel weighed that dimLights=drop lost
+    double listLengthMean = 0.0;   // lights on a tile's visible list
+    double listOverflowMean = 0.0; // lights for which it had no room
+    std::size_t triangles = 0;     // instances counted each
     std::vector<std::string> featuresOn;
     std::vector<std::string> featuresOff; // "Name: why"
     std::vector<PassTiming> passes;       // in frame order

@@ -89,6 +89,8 @@ void drawCounts(Desk& desk, const FrameStatistics& s) {
         row("of these met their light",
             fmt::format("{:.0f} %", 100.0 * s.usefulRaysPerPixelMean / std::max(s.raysPerPixelMean, 1e-6)));
         row("not found in the frame before", fmt::format("{:.1f} %", 100.0 * s.missedShare));
+        if (s.droppedLightMean > 0.0)
+            row("light lost with dim lights", fmt::format("{:.2f} %", 100.0 * s.droppedLightMean));
         row("lights on a tile's list", fmt::format("{:.1f}", s.listLengthMean));
     }
     row("bounding volumes built in", fmt::format("{:.0f} ms", s.bvhBuildMs));

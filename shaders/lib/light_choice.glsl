@@ -43,8 +43,9 @@ uint fetchCellLight(uint at) {
 }
 #include "../math/light_walk.glsl"
 
-// The includer's: what looks at each candidate. `weight` is that before the threshold and the stride.
-void seeCandidate(Candidate c, float weight);
+// The includer's: what looks at each candidate. `weight` is that before the threshold and the stride, `light` the
+// unshadowed luminance of the candidate and of those that the stride left out for it.
+void seeCandidate(Candidate c, float weight, float light);
 
 // Beside the selection: what was decided on the way.
 struct ChoiceState {
@@ -120,7 +121,7 @@ ChoiceState considerLights(Receiver receiver, uvec2 pixel, uvec2 stored, inout L
         if (list != LIST_HIDDEN) likely += vec2(weight, weight * edited);
         float dimNumber = weight < how.dimThreshold ? whiteNoise1(seed, kFirstDimNumber + slot) : 0.0;
         Candidate candidate = makeCandidate(slot, list, weight, state.stride, how.dimThreshold, how.dimMode, dimNumber);
-        seeCandidate(candidate, weight);
+        seeCandidate(candidate, weight, list == LIST_HIDDEN ? unshadowed * float(state.stride) : unshadowed);
         selectionAdd(selection, candidate);
         ++state.candidates;
     }

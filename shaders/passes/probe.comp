@@ -31,7 +31,7 @@ layout(scalar) writeonly buffer ProbeRays {
 shared vec4 sums;
 shared SelectionBudget budget;
 
-void seeCandidate(Candidate c, float weight) {
+void seeCandidate(Candidate c, float weight, float light) {
     uint slot = c.item;
     lights[slot].flags |= PROBE_CANDIDATE;
     lights[slot].list = c.list;

@@ -9,7 +9,13 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32ui) writeonly uniform uimage2DArray samplesOut;
 
-void seeCandidate(Candidate c, float weight) {}
+layout(constant_id = CHOICE_DIM_DROP) const bool kDimDrop = false;
+
+vec2 droppedOfAll; // light of the candidates, as they stand for all: what the hard drop loses, and the whole
+
+void seeCandidate(Candidate c, float weight, float light) {
+    if (kDimDrop) droppedOfAll += vec2(hardDropLoss(light, weight, frame.sampling.dimThreshold), light);
+}
 
 void main() {
     bool atHalf = kHalfSampling != HALF_OFF;
@@ -26,6 +32,7 @@ void main() {
             imageStore(samplesOut, ivec3(stored, i), uvec4(0u));
         return;
     }
+    droppedOfAll = vec2(0.0);
     LightSelection selection;
     ChoiceState state = considerLights(receiver, pixel, stored, selection);
     uint chosen = 0u;
@@ -52,4 +59,9 @@ void main() {
     uint standsFor = atHalf ? 4u : 1u; // pixels of the full resolution
     countAll(COUNTER_MISSED, (state.flags & SAMPLE_MISSED) != 0u ? standsFor : 0u);
     countAll(COUNTER_SURFACE_PIXELS, standsFor);
+    if (kDimDrop) {
+        float share = min(droppedOfAll.x / max(droppedOfAll.y, 1.0e-30), 1.0);
+        float number = whiteNoise1(pixelSeed(pixel, how.noiseFrame, frame.seed), 10u); // small shares are counted as well
+        countAll(COUNTER_DROPPED, standsFor * uint(share * float(DROPPED_STEPS) + number));
+    }
 }

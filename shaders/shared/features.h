@@ -44,6 +44,7 @@ const int CHOICE_COMPACT_RAYS = 42;      // trace_samples and shade_samples walk
 const int CHOICE_PIXEL_ROWS =
     43; // passes over images go row by row instead of tile by tile (lib/dispatch.glsl)
 const int CHOICE_DRAW_FROM = 44; // DRAW_FROM_*
+const int CHOICE_DIM_DROP = 45;  // dim lights are dropped, and what is lost is counted
 
 // Where resample_lights draws its candidates from.
 const int DRAW_FROM_CELL = 0;  // the lights of the pixel's cell, evenly

@@ -62,7 +62,9 @@ KX_CONST uint COUNTER_LIST_OVERFLOW = 7u;  // lights that a list had no room for
 KX_CONST uint COUNTER_SAMPLES = 8u;        // samples with a light
 KX_CONST uint COUNTER_COUNTED_PIXELS = 9u; // pixels that the first two of lights and tests were counted for
 KX_CONST uint COUNTER_MISSED = 10u;        // pixels whose reprojection failed
-KX_CONST uint COUNTER_COUNT = 11u;
+KX_CONST uint COUNTER_DROPPED = 11u;       // shares of the pixels' unshadowed light, in steps, dropped as dim
+KX_CONST uint COUNTER_COUNT = 12u;
+KX_CONST uint DROPPED_STEPS = 256u; // of the whole light of a pixel, so that 16 million pixels fit
 
 KX_SHARED_END
 #endif

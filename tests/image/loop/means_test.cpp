@@ -102,9 +102,13 @@ Scene dimScene(int count, double candela) {
     return withIds(std::move(b.scene));
 }
 
-double meanLuminance(const Scene& scene, const std::vector<std::string>& settings, int frames) {
+struct Dim {
+    double luminance = 0.0, dropped = 0.0; // means; the second as the statistics say it
+};
+Dim meansOf(const Scene& scene, const std::vector<std::string>& settings, int frames) {
     Loop loop(scene, loopOptions(32, 32, settings));
-    return framesOf(loop, frames)().values[Light::Luminance];
+    const double luminance = framesOf(loop, frames)().values[Light::Luminance];
+    return {luminance, loop.renderer().statistics().droppedLightMean};
 }
 
 TEST(DimCrowd, RouletteKeepsItAndTheDropLosesIt) {
@@ -118,18 +122,30 @@ TEST(DimCrowd, RouletteKeepsItAndTheDropLosesIt) {
     for (const char* guiding : {"guiding=true", "guiding=false"}) {
         Loop loop(crowd, loopOptions(32, 32, {threshold, guiding}));
         expectSameMean(gather(framesOf(loop)), reference, std::string("dim crowd, ") + guiding);
-        EXPECT_EQ(meanLuminance(crowd, {threshold, guiding, "dimLights=drop"}, 4), 0.0) << "all of it is dim";
+        EXPECT_EQ(loop.renderer().statistics().droppedLightMean, 0.0);
+        const Dim all = meansOf(crowd, {threshold, guiding, "dimLights=drop"}, 4);
+        EXPECT_EQ(all.luminance, 0.0) << "all of it is dim";
+        EXPECT_EQ(all.dropped, 1.0);
     }
-    // Beside a light as strong as all of them the drop loses just half.
+    // Beside a light as strong as all of them the drop loses just half, beside stronger ones as much less.
+    const std::string every = "cellCandidates=1000", missed = "missCandidates=1000";
+    for (const double times : {1.0, 999.0}) {
+        Scene uneven = crowd;
+        uneven.lightDefs.write()[0].intensity = times * 999.0 * candela;
+        const double whole = splitReference(uneven, options).mean(Light::Luminance).mean;
+        const Dim kept = meansOf(uneven, {threshold, every, missed}, 32);
+        const Dim left = meansOf(uneven, {threshold, "dimLights=drop", every, missed}, 8);
+        const double lost = 1.0 / (1.0 + times);
+        EXPECT_NEAR(kept.luminance / whole, 1.0, 0.005);
+        EXPECT_EQ(kept.dropped, 0.0);
+        EXPECT_NEAR(left.luminance / whole, 1.0 - lost, 0.005);
+        EXPECT_NEAR(left.dropped, lost, 0.1 * lost);
+    }
+    // Of its cell a pixel sees every N-th light, and the strong one on its list. In the first frame there are
+    // no lists, so that most pixels find dim lights alone.
     Scene half = crowd;
     half.lightDefs.write()[0].intensity = 999.0 * candela;
-    const double whole = splitReference(half, options).mean(Light::Luminance).mean;
-    EXPECT_NEAR(
-        meanLuminance(half, {threshold, "dimLights=drop", "cellCandidates=1000", "missCandidates=1000"}, 8) /
-            whole,
-        0.5, 0.005);
-    EXPECT_NEAR(meanLuminance(half, {threshold, "cellCandidates=1000", "missCandidates=1000"}, 32) / whole,
-                1.0, 0.005);
+    EXPECT_NEAR(meansOf(half, {threshold, "dimLights=drop", "cellCandidates=100"}, 32).dropped, 0.5, 0.03);
 }
 
 } // namespace

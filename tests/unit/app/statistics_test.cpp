@@ -22,6 +22,7 @@ TEST(Statistics, JsonHoldsEveryField) {
                                      .raysPerPixelMean = 4.5,
                                      .usefulRaysPerPixelMean = 5.25,
                                      .missedShare = 6.5,
+                                     .droppedLightMean = 0.75,
                                      .listLengthMean = 7.5,
                                      .listOverflowMean = 8.5,
                                      .triangles = 15,
@@ -66,6 +67,7 @@ TEST(Statistics, JsonHoldsEveryField) {
     EXPECT_EQ(json["sampling"]["raysPerPixelMean"], 4.5);
     EXPECT_EQ(json["sampling"]["usefulRaysPerPixelMean"], 5.25);
     EXPECT_EQ(json["sampling"]["missedShare"], 6.5);
+    EXPECT_EQ(json["sampling"]["droppedLightMean"], 0.75);
     EXPECT_EQ(json["sampling"]["listLengthMean"], 7.5);
     EXPECT_EQ(json["sampling"]["listOverflowMean"], 8.5);
     EXPECT_EQ(json["exposureEv100"], 5.5);
