@@ -3,14 +3,12 @@
 // one light trace alike and evaluate one kind of light, and pixels without a ray cost nothing. A counting sort by the
 // low bits of the slot; a workgroup is one subgroup, so that no barriers are needed. What is not listed is written
 // here. The order of the list depends on threads, what its rays find does not.
-#extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
 #include "shared/features.h"
 #include "lib/frame.glsl"
+#include "lib/lanes.glsl"
 #include "lib/sample.glsl"
 #include "lib/tile_order.glsl"
 
-layout(constant_id = CHOICE_LANES) const int kLanes = 8;
 layout(local_size_x_id = CHOICE_LANES) in;
 layout(push_constant) uniform Push {
     uint layer;      // the pixels' how many-th rays
@@ -53,11 +51,6 @@ uint bucketOf(uvec2 pixel) {
     return kNoBucket;
 }
 
-void shareAcrossLanes() {
-    subgroupMemoryBarrierShared();
-    subgroupBarrier();
-}
-
 void main() {
     uint lane = gl_LocalInvocationID.x, lanes = uint(kLanes);
     uvec2 tiles = (frame.size + RAY_TILE_PX - 1u) / RAY_TILE_PX;
@@ -74,8 +67,8 @@ void main() {
     uint count = 0u;
     for (uint i = lane; i < kBuckets; i += lanes) {
         uint here = places[i];
-        places[i] = count + subgroupExclusiveAdd(here);
-        count += subgroupAdd(here);
+        places[i] = count + sumOfLanesBefore(here);
+        count += sumOfLanes(here);
     }
     shareAcrossLanes();
     uint first = 0u;

@@ -4,9 +4,9 @@
 // Guiding"; the smallest slot by subgroup minimum is from Sousa and Geffroy, "The devil is in the details", 2016).
 // Entries of the previous list stay for some frames without being seen. A workgroup is one subgroup, so that no
 // barriers are needed; results do not depend on its size.
-#extension GL_KHR_shader_subgroup_arithmetic : require
 #include "shared/features.h"
 #include "lib/frame.glsl"
+#include "lib/lanes.glsl"
 #include "lib/light_access.glsl"
 #include "lib/reprojection.glsl"
 #include "lib/sample.glsl"
@@ -14,7 +14,6 @@
 #include "lib/visible_list.glsl"
 #include "math/hash.glsl"
 
-layout(constant_id = CHOICE_LANES) const int kLanes = 8;
 const int kPixelsPerLane = 64 / kLanes;
 
 layout(local_size_x_id = CHOICE_LANES) in;
@@ -32,36 +31,30 @@ layout(scalar) buffer Counters {
 };
 
 const uint kNone = 0xffffffffu;
+const uint kSun = 1u << 16u;  // beside a sample's slot: of a directional light or the dome
+const uint kGone = 1u << 31u; // in an entry: not listed any more, unless it is seen again, and then begins anew
+const uint kCountShift = 22u; // above the energy of up to 64 samples
 const float kArrivedRays = 32.0; // that the share of arrived ones remembers, about three frames' of a tile
-const uint kRoom = 128u; // of one layer's 64 samples and the entries before, which are at most 33 + 64 long
+const uint kRoom = 128u; // of up to 32 entries that stay and those of one layer's 64 samples
 
 shared uvec4 entries[2][kRoom]; // in turn the list so far and the next one; xy: as listed, zw: what was seen
 
 // The entry as it goes into this frame: older by one, windows turned, and nothing believed of an edited light.
 uvec4 carriedEntry(uvec2 texel, uvec2 seen) {
     VisibleEntry e = unpackEntry(texel.x);
-    uvec4 none = uvec4(kNone, uvec3(0u));
-    if (e.slot >= frame.lightCount) return none;
+    if (e.slot >= frame.lightCount) return uvec4(e.slot | kGone, uvec3(0u));
     uint typeFlags = loadLightHot(e.slot).typeFlags;
     // A light that went out or away stays as strong as it was while its edit is fresh: pixels that meet it cap their
     // history.
     bool off = (typeFlags & (LIGHT_FLAG_DEAD | LIGHT_FLAG_MUTED)) != 0u, edited = (typeFlags & LIGHT_FLAG_EDITED) != 0u;
-    if (off && !edited) return none;
     e.age = min(e.age + 1u, 15u);
-    if (e.age > frame.sampling.listMemory && !edited) return none;
+    bool gone = (off || e.age > frame.sampling.listMemory) && !edited;
     uint epoch = typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
     bool same = epoch == e.epoch;
     if (frame.frame % ENTRY_WINDOW == 0u) seen <<= SEEN_OLDER_SHIFT;
     e.epoch = epoch;
-    return uvec4(packEntry(e), edited ? texel.y : texel.y - texel.y / 4u, same ? seen : uvec2(0u));
-}
-
-// The bits of a directional light or the dome among those that a list's head knows.
-uint bitsOfSun(uint slot) {
-    uint bits = 0u;
-    for (uint i = 0u; i < min(frame.sampling.directionalCount, HEAD_SUNS); ++i)
-        bits |= directionalSlots[i] == slot ? 15u << 4u * i : 0u;
-    return bits;
+    return uvec4(packEntry(e) | (gone ? kGone : 0u), edited ? texel.y : texel.y - texel.y / 4u,
+                 same ? seen : uvec2(0u));
 }
 
 // What is left of the frames for which the directional lights of a head count as seen.
@@ -82,7 +75,7 @@ struct Tally {
     uint hiddenArrived; // and those of them that arrived
 };
 
-// What a sample adds: x = slot, y = energy << 16 | bit of the cell; kNone for what was not seen, or is directional.
+// What a sample adds: x = slot, y = energy << 16 | bit of the cell; kNone for what was not seen.
 uvec2 seenSample(uvec2 pixel, uint layer, inout Tally tally) {
     if (any(greaterThanEqual(pixel, frame.size))) return uvec2(kNone, 0u);
     uint result = texelFetch(rayResults, ivec3(pixel, layer), 0).x;
@@ -93,82 +86,123 @@ uvec2 seenSample(uvec2 pixel, uint layer, inout Tally tally) {
         tally.hiddenArrived += visible ? 1u : 0u;
     }
     if (!visible) return uvec2(kNone, 0u);
-    if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) {
-        tally.suns |= bitsOfSun(s.slot);
-        return uvec2(kNone, 0u);
-    }
+    if (s.list == LIST_DIRECTIONAL || s.list == LIST_DOME) return uvec2(s.slot | kSun, 0u);
     uint energy = uint(clamp(s.weight * 256.0, 1.0, 65535.0));
     return uvec2(s.slot, energy << 16u | 1u << (result >> RAY_CELL_SHIFT & 15u));
 }
 
-// Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length.
+// Those of slots[] among the directional lights and the dome that a list's head knows, as its bits.
+uint sunsAmong(uint slots[kPixelsPerLane]) {
+    uint suns = 0u;
+    for (uint sun = 0u; sun < min(frame.sampling.directionalCount, HEAD_SUNS); ++sun) {
+        for (int i = 0; i < kPixelsPerLane; ++i)
+            suns |= slots[i] == (directionalSlots[sun] | kSun) ? 15u << 4u * sun : 0u;
+    }
+    return suns;
+}
+
+// An entry with what a layer's samples saw of its light: cells, and their count and energy as mergeLayer() packs them.
+uvec4 withSeen(uvec4 entry, uint cells, uint sum) {
+    if ((entry.x & kGone) != 0u) entry.yzw = uvec3(0u);
+    if (sum != 0u) entry.x &= (1u << ENTRY_AGE_SHIFT) - 1u; // of age 0, and not gone
+    entry.y = max(entry.y, sum & ((1u << kCountShift) - 1u));
+    entry.z |= cells;
+    entry.w += min(sum >> kCountShift, SEEN_MASK - (entry.w & SEEN_MASK));
+    return entry;
+}
+
+// Merges the list in entries[from] (`count` long, sorted) with the samples of one layer; returns the new length. Lists
+// are the first lane's: shared memory costs a CPU's vector as much as there are lanes that use it.
 uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Tally tally) {
-    uint lane = gl_LocalInvocationID.x;
     uint slots[kPixelsPerLane], adds[kPixelsPerLane];
     for (int i = 0; i < kPixelsPerLane; ++i) {
-        uint at = uint(i * kLanes) + lane;
+        uint at = uint(i * kLanes) + gl_LocalInvocationID.x;
         uvec2 seen = seenSample(tile * LIST_TILE_PX + uvec2(at & 7u, at >> 3u), layer, tally);
         slots[i] = seen.x;
         adds[i] = seen.y;
     }
+    if (kDirectionalLights || kDome) tally.suns |= sunsAmong(slots);
+    for (int i = 0; i < kPixelsPerLane; ++i)
+        slots[i] = slots[i] > ENTRY_SLOT_MASK ? kNone : slots[i];
+    bool first = gl_LocalInvocationID.x == 0u;
     uint made = 0u, next = 0u;
     for (;;) {
-        uint mine = kNone;
+        uint least = kNone;
         for (int i = 0; i < kPixelsPerLane; ++i)
-            mine = min(mine, slots[i]);
-        uvec4 before = next < count ? entries[from][next] : uvec4(kNone, uvec3(0u));
-        uint beforeSlot = before.x == kNone ? kNone : before.x & ENTRY_SLOT_MASK;
-        uint slot = min(subgroupMin(mine), beforeSlot);
+            least = min(least, slots[i]);
+        uvec4 entry = uvec4(kNone, uvec3(0u));
+        uint listed = kNone;
+        if (first && next < count) {
+            entry = entries[from][next];
+            listed = entry.x & ENTRY_SLOT_MASK;
+        }
+        uint slot = minOfLanes(min(least, listed));
         if (slot == kNone) break;
-        uint cells = 0u, energy = 0u, samplesOf = 0u;
+        uint cells = 0u, sum = 0u;
         for (int i = 0; i < kPixelsPerLane; ++i) {
             bool same = slots[i] == slot;
             cells |= same ? adds[i] & SEEN_MASK : 0u;
-            energy += same ? adds[i] >> 16u : 0u;
-            samplesOf += same ? 1u : 0u;
+            sum += same ? 1u << kCountShift | adds[i] >> 16u : 0u;
             slots[i] = same ? kNone : slots[i]; // done with
         }
-        cells = subgroupOr(cells);
-        energy = subgroupAdd(energy);
-        samplesOf = subgroupAdd(samplesOf);
-        VisibleEntry e = VisibleEntry(slot, 0u, 0u);
-        uvec2 seen = uvec2(0u);
-        if (beforeSlot == slot) {
-            e = unpackEntry(before.x);
-            energy = max(energy, before.y);
-            seen = before.zw;
+        cells = orOfLanes(cells);
+        sum = sumOfLanes(sum);
+        if (!first) continue;
+        if (listed == slot) {
             ++next;
         } else {
-            e.epoch = loadLightHot(slot).typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
+            uint epoch = loadLightHot(slot).typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
+            entry = uvec4(packEntry(VisibleEntry(slot, epoch, 0u)), uvec3(0u));
         }
-        if (cells != 0u) e.age = 0u;
-        seen.x |= cells;
-        seen.y += min(samplesOf, SEEN_MASK - (seen.y & SEEN_MASK));
-        if (lane == 0u) entries[1u - from][made] = uvec4(packEntry(e), energy, seen);
-        ++made;
+        entry = withSeen(entry, cells, sum);
+        if ((entry.x & kGone) == 0u) entries[1u - from][made++] = entry;
     }
-    subgroupMemoryBarrierShared();
-    subgroupBarrier();
-    return made;
+    shareAcrossLanes();
+    return subgroupBroadcastFirst(made);
 }
 
 // The share of the rays to lights off the list that arrive: what those lights give for which there is no room. A
 // running mean over rays, rounded by chance so that small steps are not lost.
 uint arrivedBits(uvec2 tile, uvec2 head, Tally tally) {
-    float rays = float(subgroupAdd(tally.hiddenRays)), arrived = float(subgroupAdd(tally.hiddenArrived));
+    uint both = sumOfLanes(tally.hiddenRays << 16u | tally.hiddenArrived);
+    float rays = float(both >> 16u), arrived = float(both & 0xffffu);
     float before = arrivedShare(head);
     float share = before + (arrived - rays * before) / (rays + kArrivedRays);
     float chance = whiteNoise1(pixelSeed(tile, frame.sampling.noiseFrame, frame.seed), 24u);
     return min(uint(share * float(HEAD_ARRIVED_MASK) + chance), HEAD_ARRIVED_MASK) << HEAD_ARRIVED_SHIFT;
 }
 
-// Takes out the entry of least energy, of equal ones the last, by moving up what is behind it.
-void dropWeakest(uint from, uint count) {
-    uint weakest = 0u;
-    for (uint i = 1u; i < count; ++i)
-        if (entries[from][i].y <= entries[from][weakest].y) weakest = i;
-    for (uint i = weakest; i + 1u < count; ++i)
-        entries[from][i] = entries[from][i + 1u];
+// Marks the `surplus` entries of least energy, of equal ones the last, as gone.
+void dropWeakest(uint from, uint count, uint surplus) {
+    uint lane = gl_LocalInvocationID.x, lanes = uint(kLanes);
+    for (uint mine = lane; mine - lane < count; mine += lanes) {
+        uint energy = mine < count ? entries[from][mine].y : kNone, weaker = 0u;
+        for (uint theirs = 0u; theirs < count; theirs += lanes) {
+            uint energies = theirs + lane < count ? entries[from][theirs + lane].y : kNone;
+            for (uint k = 0u; k < lanes; ++k) {
+                uint other = subgroupBroadcast(energies, k);
+                weaker += other < energy || (other == energy && theirs + k > mine) ? 1u : 0u;
+            }
+        }
+        if (mine < count && weaker < surplus) entries[from][mine].x |= kGone;
+    }
+    shareAcrossLanes();
+}
+
+// Writes the entries that are not gone to the texels from `head` on; returns how many.
+uint writeEntries(uint head, uint from, uint count) {
+    uint lane = gl_LocalInvocationID.x, written = 0u;
+    for (uint i = lane; i - lane < count; i += uint(kLanes)) {
+        uvec4 entry = i < count ? entries[from][i] : uvec4(kGone);
+        uint listed = (entry.x & kGone) == 0u ? 1u : 0u;
+        uint place = written + sumOfLanesBefore(listed);
+        if (listed != 0u) {
+            listsOut[head + 1u + place] = entry.xy;
+            listsOut[head + LIST_CELLS_AT + place] = entry.zw;
+        }
+        written += sumOfLanes(listed);
+    }
+    return written;
 }
 
 void main() {
@@ -178,45 +212,30 @@ void main() {
     Reprojection before = reproject(middle);
     uint first = listTexel(ivec2(before.uv * vec2(frame.previousSize) / float(LIST_TILE_PX)), frame.previousTiles);
     uvec2 head = frame.historyValid != 0u ? texelFetch(visibleLists, int(first)).xy : uvec2(0u);
-    uint stored = min(head.x, LIST_CAPACITY);
-    Tally tally = Tally(0u, 0u, 0u);
-    for (uint i = lane; i < stored; i += uint(kLanes))
-        entries[1][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy,
-                                     texelFetch(visibleLists, int(first + LIST_CELLS_AT + i)).xy);
-    subgroupMemoryBarrierShared();
-    subgroupBarrier();
-    uint count = 0u, from = 0u;
-    if (lane == 0u) {
-        for (uint i = 0u; i < stored; ++i)
-            if (entries[1][i].x != kNone) entries[0][count++] = entries[1][i];
-    }
-    count = subgroupMax(count);
-    subgroupMemoryBarrierShared();
-    subgroupBarrier();
+    uint count = min(head.x, LIST_CAPACITY), from = 0u;
+    for (uint i = lane; i < count; i += uint(kLanes))
+        entries[from][i] = carriedEntry(texelFetch(visibleLists, int(first + 1u + i)).xy,
+                                        texelFetch(visibleLists, int(first + LIST_CELLS_AT + i)).xy);
+    shareAcrossLanes();
     uint wanted = min(frame.sampling.listLength, LIST_CAPACITY), lost = 0u;
+    Tally tally = Tally(0u, 0u, 0u);
     for (uint layer = 0u; layer < frame.sampling.rays; ++layer) {
         count = mergeLayer(tile, layer, from, count, tally);
         from = 1u - from;
-        while (count > wanted) {
-            if (lane == 0u) dropWeakest(from, count);
-            --count;
-            ++lost;
+        if (count > wanted) {
+            dropWeakest(from, count, count - wanted);
+            lost += count - wanted;
         }
-        subgroupMemoryBarrierShared();
-        subgroupBarrier();
     }
     // Where there is room, what arrived is on the list from now on, and nothing is to be expected of the others.
     if (lost == 0u) tally.hiddenArrived = 0u;
     uint more = arrivedBits(tile, head, tally);
-    if (kDirectionalLights || kDome) more |= seenSuns(head.y, subgroupOr(tally.suns)) << HEAD_SUNS_SHIFT;
+    if (kDirectionalLights || kDome) more |= seenSuns(head.y, orOfLanes(tally.suns)) << HEAD_SUNS_SHIFT;
     uint out0 = (tile.y * frame.tiles.x + tile.x) * LIST_TEXELS;
+    uint written = writeEntries(out0, from, count);
     if (lane == 0u) {
-        listsOut[out0] = uvec2(count, min(lost, HEAD_LOST_MASK) | more);
-        atomicAdd(counters[COUNTER_LIST_ENTRIES], count);
+        listsOut[out0] = uvec2(written, min(lost, HEAD_LOST_MASK) | more);
+        atomicAdd(counters[COUNTER_LIST_ENTRIES], written);
         if (lost > 0u) atomicAdd(counters[COUNTER_LIST_OVERFLOW], lost);
-    }
-    for (uint i = lane; i < count; i += uint(kLanes)) {
-        listsOut[out0 + 1u + i] = entries[from][i].xy;
-        listsOut[out0 + LIST_CELLS_AT + i] = entries[from][i].zw;
     }
 }
