@@ -6,7 +6,8 @@
 // Every weight is the same seen from either of its two pixels, and taps pull the pixel towards them rather than
 // being normalized: what one pixel gives away another one gets, so energy stays. Histories of up to 4 frames take
 // more taps; those of the very first are the exception to the rest: sums in tone-mapped space, which darkens
-// (Karis, "Tone Mapping", 2013).
+// (Karis, "Tone Mapping", 2013) and ends by and by. Deviation stops taps from the first frame on: it is that of
+// the neighbourhood then, and without it light would spread over the edges of shadows by the whole radius.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/gbuffer.glsl"
@@ -21,7 +22,8 @@ layout(rgba16f) writeonly uniform image2D denoisedDiffuseOut;
 layout(rgba16f) writeonly uniform image2D denoisedSpecularOut;
 
 const float kNewFrames = 4.0;    // up to which a history counts as new
-const float kSqueezedFrames = 1.75; // the shortest history after an edit, and up
+const float kSqueezedFrames = 0.65; // of the first frames, whose sums are tone-mapped in full,
+const float kUnsqueezed = 1.75;     // and the shortest history after an edit: from there on none is
 const float kTaps = 6.0;
 const float kTapsNew = 12.0;     // where it is new
 const float kDeviations = 1.0;   // apart at which two pixels mix by half
@@ -56,7 +58,7 @@ struct Signal {
     float y;     // mean luminance of the neighbourhood: a pixel's own would stop at its noise
     float error; // standard error of the pixel's luminance
     float need;
-    float isNew; // 1: the first frame of a history, 0 from kNewFrames on
+    float isNew;   // 1: the first frame of a history, 0 from kNewFrames on
     float squeeze; // how far sums are tone-mapped: not where an edit shortened a history, as that would darken it
 };
 
@@ -66,7 +68,7 @@ Signal makeSignal(vec4 light, vec2 moments) {
     s.rgb = light.rgb;
     s.y = moments.x;
     s.isNew = saturate((kNewFrames - light.a) / (kNewFrames - 1.0));
-    s.squeeze = saturate((kSqueezedFrames - light.a) / (kSqueezedFrames - 1.0));
+    s.squeeze = saturate((kUnsqueezed - light.a) / (kUnsqueezed - kSqueezedFrames));
     // An exponential mean over n frames has the error of 2 n - 1 independent ones.
     s.error = moments.y * inversesqrt(max(2.0 * light.a - 1.0, 1.0));
     float relative = s.error / (s.y + kDarkest);
@@ -78,9 +80,7 @@ Signal makeSignal(vec4 light, vec2 moments) {
 // The same for both orders of its arguments.
 float mixWeight(Signal a, Signal b) {
     float apart = abs(a.y - b.y) / (kDeviations * sqrt(a.error * a.error + b.error * b.error) + 1.0e-5);
-    float near = 1.0 / (1.0 + apart * apart);
-    // New histories know no deviation: nothing stops them.
-    return mix(near, 1.0, min(a.isNew, b.isNew)) * min(a.need, b.need);
+    return min(a.need, b.need) / (1.0 + apart * apart);
 }
 
 vec3 compressed(vec3 rgb, float amount) {

@@ -11,7 +11,8 @@
 //
 // A history begins with the mean around it, and its first frames, sampled before lists knew what is visible, count less
 // than others: what they found by luck would stand out for as long as it is 1 / n of the sum. For the same reason
-// samples of short histories are limited, which darkens them by the light of the dots; long ones keep all of it.
+// samples of short histories share what stands out with eight neighbours, light for light, and are limited at a
+// multiple of that, which darkens them a little; long histories keep every sample as it is.
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
 #include "lib/gbuffer.glsl"
@@ -41,10 +42,13 @@ const float kRelaxed = 2.0;         // of the clip width where the sample was re
 const float kLeastExtent = 0.1;     // of display white: smaller boxes do not shorten history (the talk)
 const float kDarkest = 1.0e-3;      // of display white: no change is seen below, and dim lights are found rarely
 const float kTaps = 25.0;
-const float kLimitedFrames = 8.0; // histories of fewer limit their samples, to so many times the neighbourhood and more:
-const float kLimit = 12.0, kLimitPerFrame = 6.0;
+const float kYoungFrames = 16.0; // histories of fewer share what is above so many times the neighbourhood and more,
+const float kOutlier = 4.0, kOutlierPerFrame = 2.0;
+const float kMostOutlier = 6.0;  // up to so many times that: the rest is lost
+const ivec2 kSharing[4] = ivec2[](ivec2(2, 1), ivec2(-1, 2), ivec2(1, 2), ivec2(2, -1)); // and their opposites
+const int kSharers = 8;
 const float kOtherSurface = 1.0e-3; // weight of neighbours of a new history that show another surface
-const float kSameDepth = 0.02; // share of the depth that neighbours of a new history may differ by
+const float kSameDepth = 0.02; // share of the depth that neighbours on one surface may differ by
 const float kMovesPx = 0.1;    // a picture that moves
 const float kRoughLobe = 0.6;  // roughness from which on highlights are as wide as shading
 
@@ -194,11 +198,16 @@ Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory) {
     return n;
 }
 
+// Whether two pixels of this frame show one surface.
+bool sameSurfaceNow(uvec4 there, uvec4 surface, float cosView) {
+    float depthM = surfaceDepthM(surface);
+    return abs(surfaceDepthM(there) - depthM) * cosView <= kSameDepth * depthM &&
+           dot(surfaceGeoNormalWs(there), surfaceGeoNormalWs(surface)) >= kSameNormal;
+}
+
 // Those of a pixel without history, and above all of its surface: every one where the pixel has no sample or nothing has
 // a history, else the few of a diagonal. A loop of its own, which ends at once where no lane needs it.
 void gatherFirst(inout Neighbours n, ivec2 pixel, bool hasHistory, bool isSampled, uvec4 surface, float cosView) {
-    float depthM = surfaceDepthM(surface);
-    vec3 geoNormalWs = surfaceGeoNormalWs(surface);
     int tapStep = frame.historyValid == 0u || !isSampled || !kSparseNeighbours ? 1 : 6;
     for (int i = hasHistory ? 25 : 0; i < 25; i += tapStep) {
         ivec2 at = pixel + ivec2(i % 5 - 2, i / 5 - 2);
@@ -206,10 +215,7 @@ void gatherFirst(inout Neighbours n, ivec2 pixel, bool hasHistory, bool isSample
         vec4 diffuse = texelFetch(litDiffuse, at, 0);
         vec3 specular = texelFetch(litSpecular, at, 0).rgb;
         if (diffuse.a <= 0.0 || !isFiniteLight(diffuse.rgb + specular)) continue;
-        uvec4 there = texelFetch(gSurface, at, 0);
-        bool same = abs(surfaceDepthM(there) - depthM) * cosView <= kSameDepth * depthM &&
-                    dot(surfaceGeoNormalWs(there), geoNormalWs) >= kSameNormal;
-        float weight = same ? 1.0 : kOtherSurface;
+        float weight = sameSurfaceNow(texelFetch(gSurface, at, 0), surface, cosView) ? 1.0 : kOtherSurface;
         addNeighbour(n.diffuse, diffuse.rgb, vec3(0.0), weight);
         addNeighbour(n.specular, specular, vec3(0.0), weight);
         n.count += weight;
@@ -222,11 +228,68 @@ vec3 agreedStep(vec3 a, vec3 b) {
     return mix(vec3(0.0), shorter, greaterThan(a * b, vec3(0.0)));
 }
 
-// The sample that joins a history of `frames`, around which light has this mean.
-vec3 limitedSample(vec3 light, float frames, float meanY) {
-    float most = (kLimit + kLimitPerFrame * frames) * meanY + kDarkest;
-    float y = luminance(light) * saturate(1.0 - frames / kLimitedFrames);
-    return y > most ? light * (most / y) : light;
+// What samples are held against: the frames of a history, and the light around it.
+struct Usual {
+    float frames;
+    float y;
+};
+
+Usual makeUsual(vec4 history, float meanY) {
+    return Usual(history.a, max(meanY, luminance(history.rgb)));
+}
+
+// The same for both of two pixels.
+Usual usualOf(Usual a, Usual b) {
+    return Usual(max(a.frames, b.frames), max(a.y, b.y));
+}
+
+// Luminance above which a sample is an outlier; grows beyond all bounds towards kYoungFrames.
+float outlierY(Usual usual) {
+    float y = (kOutlier + kOutlierPerFrame * usual.frames) * usual.y + kDarkest;
+    return y / max(1.0 - usual.frames / kYoungFrames, 1.0e-6);
+}
+
+vec3 limitedSample(vec3 light, float mostY) {
+    float y = luminance(light);
+    return y > mostY ? light * (mostY / y) : light;
+}
+
+// What of a sample is above the usual.
+vec3 excess(vec3 light, Usual usual) {
+    float mostY = outlierY(usual);
+    return limitedSample(light, kMostOutlier * mostY) - limitedSample(light, mostY);
+}
+
+// Samples of a pixel with history, the first frames of which share their outliers with neighbours on the surface. What
+// is above the usual of both pixels goes both ways in equal shares, so that no light is lost or leaks from brighter
+// places.
+void shareOutliers(inout vec3 diffuse, inout vec3 specular, ivec2 pixel, ivec2 before, Usual usualD, Usual usualS,
+                   uvec4 surface, float cosView) {
+    float ownMostD = outlierY(usualD), ownMostS = outlierY(usualS);
+    diffuse = limitedSample(min(diffuse, vec3(kHalfMax)), kMostOutlier * ownMostD);
+    specular = limitedSample(min(specular, vec3(kHalfMax)), kMostOutlier * ownMostS);
+    float share = 1.0 / float(kSharers + 1);
+    vec3 ownD = diffuse, ownS = specular;
+    bool isOutlier = luminance(ownD) > ownMostD || luminance(ownS) > ownMostS;
+    for (int i = 0; i < kSharers; ++i) {
+        ivec2 offset = i < kSharers / 2 ? kSharing[i] : -kSharing[i - kSharers / 2];
+        ivec2 at = pixel + offset, then = before + offset;
+        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.size)))) continue;
+        if (any(lessThan(then, ivec2(0))) || any(greaterThanEqual(then, ivec2(frame.previousSize)))) continue;
+        vec4 litD = texelFetch(litDiffuse, at, 0);
+        vec3 litS = texelFetch(litSpecular, at, 0).rgb;
+        // What is common to both is no less than the own: most pairs end here.
+        if (!isOutlier && luminance(litD.rgb) <= ownMostD && luminance(litS) <= ownMostS) continue;
+        if (litD.a <= 0.0 || !isFiniteLight(litD.rgb + litS)) continue;
+        if (!sameSurfaceNow(texelFetch(gSurface, at, 0), surface, cosView)) continue;
+        vec4 oldD = readHistory(texelFetch(previousDiffuse, then, 0));
+        if (oldD.a <= 0.0) continue;
+        vec4 oldS = readHistory(texelFetch(previousSpecular, then, 0));
+        vec4 moments = readMomentHistory(texelFetch(previousMoments, then, 0));
+        Usual bothD = usualOf(usualD, makeUsual(oldD, moments.x)), bothS = usualOf(usualS, makeUsual(oldS, moments.z));
+        diffuse += share * (excess(min(litD.rgb, vec3(kHalfMax)), bothD) - excess(ownD, bothD));
+        specular += share * (excess(min(litS, vec3(kHalfMax)), bothS) - excess(ownS, bothS));
+    }
 }
 
 struct Filtered {
@@ -265,10 +328,7 @@ Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums su
         frames = min(frames + counts, limit);
         vec3 old = storableLight(rgbFromYCoCg(before));
         float share = counts / max(frames, counts);
-        vec3 light = min(rgb, vec3(kHalfMax));
-        // A history that may never grow longer would stay dark.
-        if (mostFrames > kLimitedFrames) light = limitedSample(light, history.a, max(moments.x, luminance(old)));
-        result.light = vec4(mix(old, light, share), frames);
+        result.light = vec4(mix(old, min(rgb, vec3(kHalfMax)), share), frames);
         // Moments are those of the whole neighbourhood: many times as sure as a pixel's own.
         float deviation = noise.x;
         float momentShare = max(counts / (heldFrames + counts), share);
@@ -309,10 +369,18 @@ void main() {
         float roughness = surfaceRoughnessClass(surface);
         float keeps = dot(movedPx, movedPx) > kMovesPx * kMovesPx ? saturate(roughness / kRoughLobe) : 1.0;
         float mostSpecular = mix(frame.denoising.leastFrames, frame.denoising.specularFrames, keeps);
-        Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count,
-                                  min(frame.denoising.diffuseFrames, most));
-        Filtered s = filterSignal(litS.rgb, litD.a, h.specular, h.moments.zw, n.specular, n.count,
-                                  min(mostSpecular, most));
+        float mostDiffuse = min(frame.denoising.diffuseFrames, most);
+        mostSpecular = min(mostSpecular, most);
+        Usual usualD = makeUsual(h.diffuse, h.moments.x), usualS = makeUsual(h.specular, h.moments.z);
+        // A history that may never grow longer would stay dark.
+        if (mostDiffuse < kYoungFrames) usualD.frames = kYoungFrames;
+        if (mostSpecular < kYoungFrames) usualS.frames = kYoungFrames;
+        bool young = hasHistory && litD.a > 0.0 && max(usualD.frames, usualS.frames) < kYoungFrames &&
+                     isFiniteLight(litD.rgb + litS.rgb);
+        // Once, but as a loop: where no lane enters, a CPU device skips it.
+        for (; young; young = false) shareOutliers(litD.rgb, litS.rgb, at, before, usualD, usualS, surface, cosView);
+        Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count, mostDiffuse);
+        Filtered s = filterSignal(litS.rgb, litD.a, h.specular, h.moments.zw, n.specular, n.count, mostSpecular);
         diffuse = d.light;
         specular = s.light;
         moments = vec4(d.moments, s.moments);

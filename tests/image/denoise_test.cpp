@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -34,6 +35,20 @@ LitTexels evenLight(float value) {
         lit.specular.insert(lit.specular.end(), {value, value, value, 255.0f});
     }
     return lit;
+}
+
+// Diffuse light of another value at some pixels.
+LitTexels evenLightBut(float value, float other, const std::function<bool(std::size_t)>& isOther) {
+    LitTexels lit = evenLight(value);
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        for (std::size_t c = 0; c < 3 && isOther(i); ++c)
+            lit.diffuse[4 * i + c] = other;
+    }
+    return lit;
+}
+
+bool isDot(std::size_t i) {
+    return i % kWidth % 9 == 4 && i / kWidth % 9 == 4;
 }
 
 double meanOf(const FrameTargets& targets, const std::string& name) {
@@ -193,14 +208,8 @@ TEST(Denoiser, DotsOfTheFirstFramesAreNotSeen) {
     constexpr float kDot = 100.0f;
     for (const int dotFrame : {0, 1}) {
         RenderOptions options = stochastic({"picture=denoised", "antiAlias=off", "jitter=false"}, 12);
-        const auto isDot = [](std::size_t i) { return i % kWidth % 9 == 4 && i / kWidth % 9 == 4; };
         options.replaceLit = [&](int frame) {
-            LitTexels lit = evenLight(1.0f);
-            for (std::size_t i = 0; i < kPixels; ++i) {
-                for (std::size_t c = 0; c < 3 && frame == dotFrame && isDot(i); ++c)
-                    lit.diffuse[4 * i + c] = kDot;
-            }
-            return lit;
+            return frame == dotFrame ? evenLightBut(1.0f, kDot, isDot) : evenLight(1.0f);
         };
         renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
             if (frame < 2) return;
@@ -212,6 +221,46 @@ TEST(Denoiser, DotsOfTheFirstFramesAreNotSeen) {
             }
         });
     }
+}
+
+// What stands out of a young history goes to the pixels around, and none of it is lost.
+TEST(Denoiser, YoungHistoriesShareDotsWithoutLoss) {
+    constexpr int kDotFrame = 4; // whose sample is a third of the sum
+    RenderOptions options = stochastic({"picture=denoised", "antiAlias=off", "jitter=false"}, kDotFrame + 1);
+    options.replaceLit = [&](int frame) {
+        return frame == kDotFrame ? evenLightBut(1.0f, 30.0f, isDot) : evenLight(1.0f);
+    };
+    renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
+        if (frame < kDotFrame) return;
+        EXPECT_NEAR(meanOf(t, "historyDiffuse"), (2.0 + meanOf(t, "litDiffuse")) / 3.0, 0.005);
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < t.pixels(); ++i) {
+            if (!t.surface(i).seen || !isDot(i)) continue;
+            sum += t.rgb("historyDiffuse", i).y;
+            count += 1.0;
+        }
+        EXPECT_LT(sum / count, 8.0) << "11 unshared";
+    });
+}
+
+// The edge of a shadow stands from the fourth frame on: light does not cross it by the filter's radius.
+TEST(Denoiser, YoungHistoriesKeepTheEdgesOfShadows) {
+    constexpr std::size_t kEdgePx = kWidth / 2;
+    RenderOptions options = stochastic({"picture=denoised", "antiAlias=off", "jitter=false"}, 4);
+    options.replaceLit = [&](int) {
+        return evenLightBut(10.0f, 0.1f, [](std::size_t i) { return i % kWidth >= kEdgePx; });
+    };
+    renderScene(litStage(), options, [&](int frame, const FrameTargets& t) {
+        if (frame < 3) return;
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < t.pixels(); ++i) {
+            // Nearer by, first histories hold the light across the edge.
+            if (!t.surface(i).seen || i % kWidth < kEdgePx + 3 || i % kWidth >= kEdgePx + 7) continue;
+            sum += t.rgb("denoisedDiffuse", i).y;
+            count += 1.0;
+        }
+        EXPECT_LT(sum / count, 0.15) << "of 0.1 in the shadow";
+    });
 }
 
 // Below one ray per pixel most pixels have no sample in a frame: none stays black.
