@@ -283,6 +283,30 @@ TEST(Denoiser, PixelsWithoutASampleKeepOrBorrow) {
     });
 }
 
+// Where no neighbour fitted at half resolution the sample may be another surface's: history gives way to it
+// less.
+TEST(Denoiser, ReconstructedPixelsKeepMoreOfTheirHistory) {
+    constexpr int kStep = 12;
+    const auto lightAfterStep = [&](float valid) {
+        RenderOptions options = stochastic({"picture=denoised", "antiAlias=off"}, kStep + 1);
+        options.replaceLit = [&](int frame) {
+            std::mt19937 random{std::uint32_t(frame)};
+            LitTexels lit = evenLight(1.0f);
+            for (std::size_t i = 0; i < kPixels; ++i) {
+                const float value = (frame < kStep ? 1.0f : 2.0f) * (random() & 1u ? 1.3f : 0.7f);
+                std::fill_n(&lit.diffuse[4 * i], 3, value);
+                lit.diffuse[4 * i + 3] = frame < kStep ? 1.0f : valid;
+            }
+            return lit;
+        };
+        return meanOf(renderScene(litStage(), options).targets, "historyDiffuse");
+    };
+    const double sampled = lightAfterStep(1.0f), reconstructed = lightAfterStep(0.5f);
+    std::printf("after a step from 1 to 2: %.3f, where reconstructed %.3f\n", sampled, reconstructed);
+    EXPECT_GT(sampled, 1.1);
+    EXPECT_LT(reconstructed - 1.0, 0.9 * (sampled - 1.0));
+}
+
 // One bright pixel among dark ones stands outside its neighbours' spread in every frame, and is no change.
 TEST(AntiAlias, SmallHighlightsKeepTheirLight) {
     RenderOptions options = stochastic({"picture=denoised", "denoise=off", "jitter=false"}, 24);
