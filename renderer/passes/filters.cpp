@@ -67,6 +67,8 @@ AntiAliasPass::AntiAliasPass(gpu::PassResources& resources)
     : pass_(resources, "anti_alias",
             {{"Frame"},
              {"gDepth"},
+             {"gSurface"},
+             {"previousSurface"},
              {"motion"},
              {"sceneColor"},
              {"litSpecular"},
@@ -82,6 +84,8 @@ void AntiAliasPass::record(FrameContext& frame) {
     gpu::Bindings bindings{
         {"Frame", frame.frameBuffer},
         {"gDepth", targets.gDepth},
+        {"gSurface", targets.gSurface},
+        {"previousSurface", targets.previousSurface},
         {"motion", targets.motion},
         {"sceneColor", targets.sceneColor},
         {"litSpecular", targets.litSpecular},

@@ -3,19 +3,23 @@
 // SIGGRAPH 2014), history clipped to the variance of the 3 x 3 neighbourhood in YCoCg (Salvi, GDC 2016) or, where
 // that is more, to the variance that the pixel itself has shown over the last frames: a lamp's edge that jitter
 // meets in one frame of ten is in no box of the other nine, and clipping would take it away. Only what stands still
-// has such a past: behind what moves, it would keep ghosts. And where the denoiser, which tells change from noise, holds
-// all the frames that it may, light did not change: boxes are wide there. Each clip costs energy, as it takes what is
-// rare and bright more often than what is dark.
+// has such a past: behind what moves, it would keep ghosts. What something hid before, in a picture that moves, begins
+// anew: clipping alone smears bars that pass over all that is patterned or noisy behind them. And where the denoiser,
+// which tells change from noise, holds all the frames that it may, light did not change: boxes are wide there. Each clip
+// costs energy, as it takes what is rare and bright more often than what is dark.
 //
 // Jitter is drawn from the pixel filter, so frames count alike, and light is averaged as it is: a still picture
 // converges to the supersampled one. (Weights by tone mapping would darken the rims of lamps.)
 #include "shared/features.h"
 #include "lib/dispatch.glsl"
+#include "lib/gbuffer.glsl"
 #include "lib/history.glsl"
 #include "lib/reprojection.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 uniform sampler2D gDepth;
+uniform usampler2D gSurface;
+uniform usampler2D previousSurface;
 uniform sampler2D sceneColor;
 uniform sampler2D litSpecular; // a: frames that history may hold, HISTORY_FREE_FRAMES where no light was edited
 uniform sampler2D historyDiffuse; // a: frames that the denoiser holds; both are absent without it
@@ -31,6 +35,7 @@ const float kMomentFrames = 16.0; // that the deviation over time remembers
 const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
 const float kStillPx = 1.0 / 64.0;
 const float kRounding = 1.0 / 512.0; // of the light: several steps of a half float
+const float kDepthShare = 0.02, kDepthPx = 4.0; // by which depth differs within one surface: a share, pixels
 const float kSureClip = 6.0;   // times wider where the denoiser saw no change
 const float kLeastSure = 0.75; // share of the denoiser's frames from which on it counts
 
@@ -61,6 +66,23 @@ float denoiserSure(ivec2 at) {
     float diffuse = texelFetch(historyDiffuse, at, 0).a / frame.denoising.diffuseFrames;
     float specular = texelFetch(historySpecular, at, 0).a / frame.denoising.specularFrames;
     return smoothstep(kLeastSure, 1.0, min(diffuse, specular));
+}
+
+// Whether something stood in front of the surface that the neighbourhood of `nearest` shows, around the place where
+// that was in the previous frame: history is what stood in front, and clipping leaves of it what its box allows.
+bool wasHidden(ivec2 nearest, Reprojection r, vec2 foundPx) {
+    uvec4 surface = texelFetch(gSurface, nearest, 0);
+    bool sky = surfaceDepthM(surface) >= DEPTH_SKY;
+    float cosView = sky ? 1.0 : abs(dot(surfaceGeoNormalWs(surface), normalize(cameraRay(uvec2(nearest)).dir)));
+    float tolerance = kDepthShare + kDepthPx * frame.pixelAngleRad / max(cosView, 0.02);
+    float leastM = r.depthM * (1.0 - min(tolerance, 0.9));
+    ivec2 centre = ivec2(floor(foundPx + 0.5));
+    for (int i = 0; i < 5; ++i) {
+        ivec2 offset = i == 4 ? ivec2(0) : 2 * ivec2(i & 1, i >> 1) - 1;
+        ivec2 there = clamp(centre + offset, ivec2(0), ivec2(frame.previousSize) - 1);
+        if (surfaceDepthM(texelFetch(previousSurface, there, 0)) < leastM) return true;
+    }
+    return false;
 }
 
 void main() {
@@ -115,6 +137,7 @@ void main() {
         vec3 clipped = farthest > 1.0 ? mean + (before - mean) / farthest : before;
         float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));
         float most = still ? frame.denoising.antiAliasFrames : min(frame.denoising.antiAliasFrames, kMovingFrames);
+        if (!still && wasHidden(nearest, r, foundPx)) most = 1.0;
         if (edited) most = min(most, max(0.5 * allowed, 1.0));
         frames = min(history.a + 1.0, mix(min(kLeastFrames, most), most, confidence));
         if (still) {

@@ -231,6 +231,55 @@ TEST(History, DisoccludedSurfacesBeginAnew) {
     EXPECT_LE(young, known / 20);
 }
 
+// Dark bars go by in front of a patterned wall: where the pattern widens the box that history is clipped to,
+// bars that passed must not darken what is shown of the wall.
+TEST(AntiAlias, NothingIsLeftOfWhatPassed) {
+    constexpr int kWidth = 64, kHeight = 48;
+    constexpr double kCellM = 0.3, kDistanceM = 9.0;
+    SceneBuilder b;
+    const int bright = b.material({0.8, 0.8, 0.8}, 0.0, 1.0), dark = b.material({0.1, 0.1, 0.1}, 0.0, 1.0),
+              black = b.material({0, 0, 0}, 0.0, 1.0);
+    for (int i = 0; i < 40 * 24; ++i) {
+        const glm::dvec3 place(kCellM * (i % 40 - 20), kCellM * (i / 40 - 12), -kDistanceM);
+        b.quad(lookingAlong(place, {0, 0, -1}), kCellM, kCellM, (i % 40 + i / 40) % 2 == 0 ? bright : dark);
+    }
+    for (int i = -20; i <= 20; ++i) {
+        addPrimitive(b, makeBox({0.05, 3.0, 0.03}), Shading::Flat,
+                     glm::translate(glm::dmat4(1.0), glm::dvec3(0.6 * i, 0, -2)), black);
+    }
+    b.light(lightDef(LightType::Directional, 100.0, LightUnit::Lux), glm::dmat4(1.0));
+    Camera camera = cameraLooking({-0.5, 0, 0}, {0, 0, -1});
+    b.scene.cameras = {camera};
+    RenderOptions options = stochasticOptions(kWidth, kHeight, {"picture=denoised", "raysPerPixel=4"});
+    FrameRig rig(b.scene, options);
+    for (int i = 0; i < 24; ++i) {
+        rig.frames(1);
+        camera.worldFromCamera[3].x += 0.043;
+        rig.renderer().setCamera(camera, Renderer::CameraChange::Move);
+    }
+    const FrameTargets moving = rig.frame();
+    // The light of the wall, bars' edges apart: what is shown over what the frame itself found.
+    double shown = 0.0, found = 0.0;
+    int count = 0;
+    for (int y = 2; y < kHeight - 2; ++y) {
+        for (int x = 2; x < kWidth - 2; ++x) {
+            bool wall = true;
+            for (int k = 0; k < 25; ++k) {
+                const std::size_t at = std::size_t((y + k / 5 - 2) * kWidth + x + k % 5 - 2);
+                wall = wall && valueAt(moving, "gDepth", at, 0) > 4.0f;
+            }
+            if (!wall) continue;
+            const std::size_t i = std::size_t(y * kWidth + x);
+            shown += luminanceOf(moving.rgb("antiAliased", i));
+            found += luminanceOf(moving.rgb("sceneColor", i));
+            ++count;
+        }
+    }
+    ASSERT_GT(count, 500);
+    std::printf("light behind bars that passed: %.4f of the wall's\n", shown / found);
+    EXPECT_NEAR(shown / found, 1.0, 0.02);
+}
+
 double meanFramesHeld(const FrameTargets& targets) {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < targets.pixels(); ++i) {
