@@ -34,6 +34,7 @@ constexpr Part kParts[] = {
     {"guiding", "error with visible lists and area masks over the error without", benchGuiding},
     {"rays", "useful rays per pixel, failed reprojections, list lengths", benchRays},
     {"noise", "error of denoised frames, blue over white noise", benchNoise},
+    {"half", "lights chosen at half resolution: error, and contrast of shadows, against full", benchHalf},
 };
 
 double loadAverage() {

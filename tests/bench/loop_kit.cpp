@@ -53,6 +53,7 @@ static RenderOptions optionsOf(const LoopScene& scene, const Shot& shot) {
     options.method = shot.method;
     options.camera = scene.camera;
     options.settings = shot.settings;
+    options.keepTargets = shot.keepTargets;
     return options;
 }
 

@@ -30,6 +30,7 @@ struct Shot {
     int height = 360;
     std::uint32_t seed = 0;
     Settings settings;
+    bool keepTargets = false; // Renderer::targets() can be asked for
 };
 
 // The size of the options, or this one.

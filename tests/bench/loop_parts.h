@@ -16,4 +16,7 @@ nlohmann::ordered_json benchGuiding(const LoopOptions& options); // lists and ma
 nlohmann::ordered_json benchRays(const LoopOptions& options);    // what becomes of the rays
 nlohmann::ordered_json benchNoise(const LoopOptions& options);   // blue against white
 
+// loop_half.cpp
+nlohmann::ordered_json benchHalf(const LoopOptions& options); // lights chosen at half resolution against full
+
 } // namespace kilolux::test
