@@ -24,10 +24,11 @@ std::string choicesText(std::string_view title, std::span<const NamedChoice> cho
     return text + "\n";
 }
 
-std::string settingsText() {
+std::string settingsText(std::string_view title, bool expert) {
     const Settings defaults;
-    std::string text = "Settings (--set key=value)\n";
+    std::string text = fmt::format("{}\n", title);
     for (const SettingRow& row : settingRows()) {
+        if (row.expert != expert) continue;
         text += fmt::format("  {:<20} {}\n", row.name, row.help);
         text += fmt::format("  {:<20} {}{}{}, default {}\n", "", settingTypeText(row),
                             row.unit.empty() ? "" : " ", row.unit, settingValueText(row, defaults));
@@ -90,6 +91,7 @@ nlohmann::ordered_json settingRowsJson() {
                                         {"type", settingTypeName(row)},
                                         {"default", defaults[std::string(row.name)]},
                                         {"help", row.help}};
+        if (row.expert) entry["expert"] = true;
         if (!row.unit.empty()) entry["unit"] = row.unit;
         if (std::isfinite(row.min)) entry["min"] = row.min;
         if (std::isfinite(row.max)) entry["max"] = row.max;
@@ -115,7 +117,9 @@ std::optional<Error> checkName(std::string_view kind, std::string_view name,
 std::string listChoices(ListFormat format) {
     if (format == ListFormat::Text)
         return choicesText("Methods (--method)", Renderer::methods()) +
-               choicesText("Views (--view)", Renderer::views()) + presetsText() + settingsText();
+               choicesText("Views (--view)", Renderer::views()) + presetsText() +
+               settingsText("Settings (--set key=value)", false) +
+               settingsText("\nSettings for experts: numbers inside the method, best left as they are", true);
     nlohmann::ordered_json json;
     json["methods"] = choicesJson(Renderer::methods());
     json["views"] = choicesJson(Renderer::views());

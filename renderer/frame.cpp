@@ -3,6 +3,8 @@
 
 #include "shaders/shared/features.h"
 
+#include <algorithm>
+
 namespace kilolux {
 
 FramePasses::FramePasses(gpu::PassResources& resources, const FramePlan& plan)
@@ -56,11 +58,32 @@ shared::DenoisingConstants denoisingConstants(const Settings& s) {
     c.specularFrames = float(s.specularFrames);
     c.leastFrames = float(s.leastFrames);
     c.clipWidth = float(s.clipWidth);
+    c.clipExtent = float(s.clipExtent);
+    c.momentFrames = float(s.momentFrames);
+    c.depthTolerance = float(s.depthTolerance);
+    c.normalTolerance = float(s.normalTolerance);
     c.spatialRadiusPx = float(s.spatialRadius);
     c.spatialThreshold = float(s.spatialThreshold);
+    c.spatialTaps = float(s.spatialTaps);
+    c.spatialTapsNew = float(s.spatialTapsNew);
+    c.spatialNewFrames = float(s.spatialNewFrames);
+    c.spatialDeviations = float(s.spatialDeviations);
+    c.spatialPlanePx = float(s.spatialPlane);
+    c.spatialNormal = float(s.spatialNormal);
     c.antiAliasFrames = float(s.antiAliasFrames);
     c.antiAliasClip = float(s.antiAliasClip);
+    c.antiAliasSureClip = float(s.antiAliasSureClip);
+    c.antiAliasExtent = float(s.antiAliasExtent);
+    c.antiAliasLeastFrames = float(s.antiAliasLeastFrames);
+    c.antiAliasMovingFrames = float(s.antiAliasMovingFrames);
+    c.antiAliasMomentFrames = float(s.antiAliasMomentFrames);
     c.settleError = float(s.settleError);
+    c.settleBegin = float(s.settleBegin);
+    // What rises from one to the other needs a way between them.
+    c.settleFirstFrames = float(s.settleFirstFrames);
+    c.settleFullFrames = float(std::max(s.settleFullFrames, s.settleFirstFrames + 1));
+    c.settleFaultBegin = float(s.settleFaultBegin);
+    c.settleFaultSure = float(std::max(s.settleFaultSure, s.settleFaultBegin + 0.01));
     return c;
 }
 

@@ -44,6 +44,7 @@ class GpuScene {
     // Of all lights' sources as shadow rays see them, from the next updateLights() on; true: it is another
     // one.
     bool setPenumbraScale(double scale) { return std::exchange(penumbraScale_, scale) != scale; }
+    void setEditMemory(const Settings& settings) { slots_.setEditMemory(settings); } // see LightSlots
     // Takes over the transforms of the instances that create() was told may move; what they were becomes the
     // previous one. Once a frame, also when nothing moved. The device must be idle.
     void updateMovingInstances(const Scene& scene);

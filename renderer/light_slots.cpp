@@ -57,10 +57,16 @@ bool LightSlots::takeShaping(std::uint32_t slot, const GpuLights& lights, std::u
     return !same;
 }
 
+void LightSlots::setEditMemory(const Settings& settings) {
+    editFrames_ = std::uint64_t(settings.editFrames);
+    editFirstFrames_ = std::uint64_t(settings.editFirstFrames);
+    freshLights_ = std::min<std::size_t>(std::size_t(settings.freshLights), FRESH_LIGHTS);
+}
+
 void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame) {
     changed_ = edited_ = false;
     const auto isFresh = [&](const Slot& slot) {
-        return slot.wasEdited && frame < slot.editedFrame + LIGHT_EDITED_FRAMES;
+        return slot.wasEdited && frame < slot.editedFrame + editFrames_;
     };
     const auto markEdited = [&](Slot& slot) {
         if (first_) return;
@@ -110,7 +116,7 @@ void LightSlots::update(const GpuLights& lights, const std::vector<std::uint64_t
             hot.typeFlags |= std::uint32_t(shapings_.size()) << LIGHT_SHAPING_SHIFT;
         }
         if (isFresh(slots_[i])) {
-            const bool just = frame < slots_[i].firstEditedFrame + LIGHT_JUST_EDITED_FRAMES;
+            const bool just = frame < slots_[i].firstEditedFrame + editFirstFrames_;
             hot.typeFlags |= LIGHT_FLAG_EDITED | (just ? LIGHT_FLAG_JUST_EDITED : 0u);
         }
         hot.typeFlags |= (slots_[i].epoch & LIGHT_EPOCH_MASK) << LIGHT_EPOCH_SHIFT;
@@ -131,7 +137,7 @@ std::vector<std::uint32_t> LightSlots::fresh() const {
     const auto strength = [&](std::uint32_t slot) { return luminanceOf(glm::dvec3(hot_[slot].intensity)); };
     std::stable_sort(slots.begin(), slots.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return strength(a) > strength(b); });
-    slots.resize(std::min<std::size_t>(slots.size(), FRESH_LIGHTS));
+    slots.resize(std::min(slots.size(), freshLights_));
     std::sort(slots.begin(), slots.end());
     return slots;
 }

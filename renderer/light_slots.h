@@ -4,6 +4,7 @@
 #pragma once
 
 #include "renderer/gpu_lights.h"
+#include "renderer/settings.h"
 
 #include <cstdint>
 #include <map>
@@ -13,13 +14,17 @@ namespace kilolux {
 
 class LightSlots {
   public:
-    // Frames that a freed slot stays dead: longer than a visible list remembers (setting listMemory).
+    // Frames that a freed slot stays dead: longer than a visible list remembers (setting listMemory)
+    // or an edit lasts (setting editFrames).
     static constexpr std::uint64_t kRestFrames = 32;
+
+    // How long edits are remembered, and how many; from the next update() on, until then by the defaults.
+    void setEditMemory(const Settings& settings);
 
     // Takes over the lights of a frame: `lights` are the records of Scene::lights in order, `ids` their
     // LightNode::id (kDomeLightId for the dome), all different and none 0. The first call marks nothing as
     // edited. A record that differs from the frame before raises its slot's epoch and is edited for
-    // LIGHT_EDITED_FRAMES frames; a range that was derived and still is may differ, as it follows the
+    // some frames (setting editFrames); a range that was derived and still is may differ, as it follows the
     // exposure. Frames count up.
     void update(const GpuLights& lights, const std::vector<std::uint64_t>& ids, std::uint64_t frame);
 
@@ -35,7 +40,7 @@ class LightSlots {
     // Whether it changed what the picture converges to.
     bool edited() const { return edited_; }
 
-    // Slots of the local lights edited in the last frames, ascending: at most FRESH_LIGHTS, the strongest.
+    // Slots of the local lights edited in the last frames, ascending: at most `freshLights`, the strongest.
     std::vector<std::uint32_t> fresh() const;
     std::vector<std::uint32_t> directional() const; // living ones and the dome, ascending
     std::uint32_t slotOf(std::uint64_t id) const;   // of a living light; 0xffffffff for others
@@ -60,6 +65,9 @@ class LightSlots {
     std::vector<shared::LightHot> plain_; // without flags of this class, to see what an edit changed
     std::map<std::uint32_t, shared::LightShaping> shapingOfSlot_;
     std::vector<shared::LightShaping> shapings_;
+    std::uint64_t editFrames_ = std::uint64_t(Settings{}.editFrames);
+    std::uint64_t editFirstFrames_ = std::uint64_t(Settings{}.editFirstFrames);
+    std::size_t freshLights_ = std::size_t(Settings{}.freshLights);
     bool first_ = true, changed_ = false, edited_ = false;
 };
 

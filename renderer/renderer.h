@@ -51,6 +51,8 @@ struct RenderOptions {
     std::optional<std::uint32_t> gridRoom; // indices of the light grid's fine lists at the start, for tests
     // For tests of the filters: what stands in for the light that a frame has sampled; empty: nothing does.
     std::function<LitTexels(int frame)> replaceLit;
+    // For tests: whether the filters take the paths made for CPU devices; empty: as the device is one.
+    std::optional<bool> cpuFilters;
     // A frame in slices of about so many milliseconds, between which it can be given up; 0: one submission.
     double sliceMs = 0.0;
     const std::atomic<bool>* interrupt = nullptr; // set: renderFrame() gives its frame up at the next slice

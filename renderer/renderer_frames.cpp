@@ -65,6 +65,7 @@ void Renderer::Impl::updateScene(double timeS) {
     if (gpuScene->setPenumbraScale(options.settings.penumbraScale)) lightsDirty = true;
     if (!lightsDirty && !fading && !swaying && !flowing && scene.animations.empty()) return;
     if (lightsDirty && gpuScene->updateChannels(scene)) historyReset = "lighting channels";
+    gpuScene->setEditMemory(options.settings);
     gpuScene->updateLights(scene, exposureEv100, framesRun,
                            swayOffsets(scene.lights.size(), options.settings.lightsSway, timeS), timeS);
     lightsDirty = false;

@@ -252,8 +252,9 @@ std::optional<Error> Renderer::Impl::preparePlan() {
     plan.choices = constants.sampling.choices;
     constants.denoising = denoisingConstants(options.settings);
     features[shared::CHOICE_COUNT_SAMPLES] = plan.filtersLight();
-    features[shared::CHOICE_SPARSE_NEIGHBOURS] = device.isCpu();
-    features[shared::CHOICE_PIXEL_ROWS] = device.isCpu();
+    const bool cpuFilters = options.cpuFilters.value_or(device.isCpu());
+    features[shared::CHOICE_SPARSE_NEIGHBOURS] = cpuFilters;
+    features[shared::CHOICE_PIXEL_ROWS] = cpuFilters;
     if (plan.stochastic()) {
         if (gpuScene->lightCount() > shared::SAMPLE_LIGHT_LIMIT) {
             return Error{fmt::format("{}: {} lights; the stochastic method takes up to {}",

@@ -52,6 +52,10 @@ struct Settings {
     TracerChoice tracer = TracerChoice::Auto;
     GBufferChoice gbuffer = GBufferChoice::Auto;
     Sampling sampling = Sampling::Full;
+    double upsampleDepth = 50.0;
+    double upsampleNormal = 8.0;
+    double upsampleLeast = 0.01;
+    double upsampleReach = 0.125;
     Noise noise = Noise::Blue;
     bool compactRays = true;
     bool guiding = true;
@@ -70,6 +74,10 @@ struct Settings {
     double domeBudget = 0.5;
     int cellCandidates = 12;
     int missCandidates = 32;
+    int editFrames = 8;
+    int editFirstFrames = 3;
+    double editHistory = 3.5;
+    int freshLights = 8;
     DimLights dimLights = DimLights::Roulette;
     double dimThreshold = 0.001;
     int resampleCandidates = 16;
@@ -80,16 +88,36 @@ struct Settings {
     ReuseWeights reuseWeights = ReuseWeights::Counts;
     PictureChoice picture = PictureChoice::Viewport;
     double settleError = 0.5;
+    double settleBegin = 4.0;
+    int settleFirstFrames = 12;
+    int settleFullFrames = 48;
+    double settleFaultBegin = 1.5;
+    double settleFaultSure = 3.0;
     bool denoise = true;
     double diffuseFrames = 24.0;
     double specularFrames = 16.0;
     double leastFrames = 4.0;
     double clipWidth = 0.6;
+    double clipExtent = 0.1;
+    double momentFrames = 12.0;
+    double depthTolerance = 0.02;
+    double normalTolerance = 0.8;
     double spatialRadius = 8.0;
     double spatialThreshold = 0.05;
+    int spatialTaps = 6;
+    int spatialTapsNew = 12;
+    double spatialNewFrames = 4.0;
+    double spatialDeviations = 1.0;
+    double spatialPlane = 1.5;
+    double spatialNormal = 6.0;
     bool antiAlias = true;
     double antiAliasFrames = 64.0;
     double antiAliasClip = 1.25;
+    double antiAliasSureClip = 6.0;
+    double antiAliasExtent = 0.02;
+    double antiAliasLeastFrames = 4.0;
+    double antiAliasMovingFrames = 16.0;
+    double antiAliasMomentFrames = 16.0;
     double renderScale = 1.0;
     double timeS = 0.0;
     double timeStepS = 0.0;
@@ -129,6 +157,7 @@ struct SettingRow {
     double max = std::numeric_limits<double>::infinity();
     std::string_view unit; // empty: a plain number
     std::string_view help; // one line
+    bool expert = false;   // listed apart: what defaults and presets leave alone
 };
 
 // Every setting, in the order in which people should read them.

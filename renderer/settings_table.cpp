@@ -1,84 +1,21 @@
 // The table of settings: names, ranges, units and help, one row per member.
 #include "renderer/settings.h"
 
+#include "renderer/settings_filter_rows.h"
+#include "renderer/settings_words.h"
 #include "shaders/shared/light_grid.h"
+#include "shaders/shared/sampling.h"
 
+#include <algorithm>
 #include <array>
 
 namespace kilolux {
 namespace {
 
 // ---------------------------------------------------------------------------------------------------------
-// Words of the choices
-
-template<typename E>
-constexpr SettingWord word(E value, std::string_view text, std::string_view help) {
-    return {static_cast<int>(value), text, help};
-}
-
-constexpr std::array kPixelFilterWords = {
-    word(PixelFilter::Box, "box", "one pixel wide, sharp edges"),
-    word(PixelFilter::BlackmanHarris, "blackmanHarris", "3 pixels wide, smooth"),
-};
-constexpr std::array kToneMapWords = {
-    word(ToneMap::Neutral, "neutral", "keeps colours up to the shoulder, then fades to white"),
-    word(ToneMap::None, "none", "exposure and sRGB only, clipped at 1"),
-};
-constexpr std::array kTracerWords = {
-    word(TracerChoice::Auto, "auto", "ray query on hardware, compute on CPU devices"),
-    word(TracerChoice::Compute, "compute", "our BVH in a compute shader"),
-    word(TracerChoice::RayQuery, "rayQuery", "VK_KHR_ray_query"),
-};
-constexpr std::array kGBufferWords = {
-    word(GBufferChoice::Auto, "auto", "the faster one on this device"),
-    word(GBufferChoice::Raster, "raster", "rasterized triangles"),
-    word(GBufferChoice::Compute, "compute", "nearest hit of one ray per pixel"),
-};
-
-constexpr std::array kSamplingWords = {
-    word(Sampling::Full, "full", "every pixel evaluates its candidate lights"),
-    word(Sampling::HalfCheckerboard, "checkerboard", "one pixel of each 2 x 2 chooses for all four"),
-    word(Sampling::HalfRooks, "rooks", "the same, every row and column of each 4 x 4 once"),
-};
-constexpr std::array kNoiseWords = {
-    word(Noise::Blue, "blue", "spatio-temporal blue noise, made for the filters that follow"),
-    word(Noise::White, "white", "independent numbers: no filter profits, no pattern repeats"),
-};
-constexpr std::array kDimLightsWords = {
-    word(DimLights::Roulette, "roulette", "raised to the threshold or left out by chance: unbiased"),
-    word(DimLights::Drop, "drop", "left out: loses their light"),
-    word(DimLights::Keep, "keep", "chosen by their weight: fireflies"),
-};
-constexpr std::array kResampleFromWords = {
-    word(ResampleFrom::Cell, "cell", "the lights of the pixel's cell, each as likely"),
-    word(ResampleFrom::Power, "power", "all lights of the scene, by power"),
-    word(ResampleFrom::Hierarchy, "hierarchy", "all lights of the scene, by a tree of them"),
-};
-constexpr std::array kReuseWeightsWords = {
-    word(ReuseWeights::Counts, "counts",
-         "as if each could have drawn all: loses light, and gives rare ones far too much"),
-    word(ReuseWeights::Targets, "targets",
-         "by what it would give each of them unshadowed: loses light at shadows' edges"),
-    word(ReuseWeights::Rays, "rays", "by what each of them sees of it, at a ray each: unbiased"),
-};
-constexpr std::array kPictureWords = {
-    word(PictureChoice::Viewport, "viewport", "denoised, giving way to the mean as that converges"),
-    word(PictureChoice::Denoised, "denoised", "denoised and anti-aliased"),
-    word(PictureChoice::Mean, "mean", "mean of the raw frames"),
-    word(PictureChoice::Raw, "raw", "the last frame without any filter"),
-};
-
-template<auto Member, std::size_t N>
-constexpr ChoiceMember choice(const std::array<SettingWord, N>& words) {
-    using Enum = std::remove_reference_t<decltype(std::declval<Settings&>().*Member)>;
-    return {words, [](const Settings& s) { return static_cast<int>(s.*Member); },
-            [](Settings& s, int value) { s.*Member = static_cast<Enum>(value); }};
-}
-
-// ---------------------------------------------------------------------------------------------------------
 // The table
 
-constexpr std::array kRows = {
+constexpr std::array kRowsBefore = {
     SettingRow{.name = "exposureEv100",
                .member = &Settings::exposureEv100,
                .min = -20.0,
@@ -149,6 +86,36 @@ constexpr std::array kRows = {
     SettingRow{.name = "sampling",
                .member = choice<&Settings::sampling>(kSamplingWords),
                .help = "resolution at which lights are chosen; rays and shading stay at full resolution"},
+    SettingRow{.name = "upsampleDepth",
+               .member = &Settings::upsampleDepth,
+               .min = 0.0,
+               .max = 1000.0,
+               .unit = "halvings per share of the depth",
+               .help = "sampling below full: how fast a neighbour that is nearer or farther loses its chance",
+               .expert = true},
+    SettingRow{.name = "upsampleNormal",
+               .member = &Settings::upsampleNormal,
+               .min = 1.0,
+               .max = 128.0,
+               .unit = "power of the cosine",
+               .help = "the same of one that faces elsewhere",
+               .expert = true},
+    SettingRow{
+        .name = "upsampleLeast",
+        .member = &Settings::upsampleLeast,
+        .min = 0.0,
+        .max = 1.0,
+        .unit = "of the chance of the same surface",
+        .help =
+            "neighbours less alike are not taken; where none is left, history goes on without rectification",
+        .expert = true},
+    SettingRow{.name = "upsampleReach",
+               .member = &Settings::upsampleReach,
+               .min = 0.001,
+               .max = 2.0,
+               .unit = "pixels",
+               .help = "of the two over which a neighbour's chance falls, what counts as left at least",
+               .expert = true},
     SettingRow{.name = "noise",
                .member = choice<&Settings::noise>(kNoiseWords),
                .help = "random numbers of light selection"},
@@ -246,6 +213,37 @@ constexpr std::array kRows = {
                .max = 1024,
                .unit = "lights",
                .help = "the same where the previous frame does not show the surface"},
+    SettingRow{.name = "editFrames",
+               .member = &Settings::editFrames,
+               .min = 1,
+               .max = 30,
+               .unit = "frames",
+               .help = "how long a light counts as edited: every pixel in its range evaluates it, and the "
+                       "history of its light is short",
+               .expert = true},
+    SettingRow{.name = "editFirstFrames",
+               .member = &Settings::editFirstFrames,
+               .min = 0,
+               .max = 30,
+               .unit = "frames",
+               .help = "of edits that follow one another: here history is half as short as later",
+               .expert = true},
+    SettingRow{.name = "editHistory",
+               .member = &Settings::editHistory,
+               .min = 1.0,
+               .max = 32.0,
+               .unit = "frames",
+               .help = "what a history may hold where all light was edited, more where a part was; half of "
+                       "it in editFirstFrames",
+               .expert = true},
+    SettingRow{.name = "freshLights",
+               .member = &Settings::freshLights,
+               .min = 0,
+               .max = shared::FRESH_LIGHTS,
+               .unit = "lights",
+               .help =
+                   "of the edited lights so many, the strongest, are evaluated by every pixel in their range",
+               .expert = true},
     SettingRow{.name = "dimLights",
                .member = choice<&Settings::dimLights>(kDimLightsWords),
                .help = "what happens to lights under dimThreshold; the statistics tell what drop loses"},
@@ -285,70 +283,8 @@ constexpr std::array kRows = {
     SettingRow{.name = "reuseWeights",
                .member = choice<&Settings::reuseWeights>(kReuseWeightsWords),
                .help = "restir: how what was taken is weighed by who could have drawn it"},
-    SettingRow{.name = "picture",
-               .member = choice<&Settings::picture>(kPictureWords),
-               .help = "which picture of the stochastic method is shown"},
-    SettingRow{.name = "settleError",
-               .member = &Settings::settleError,
-               .min = 0.0,
-               .max = 1.0,
-               .unit = "of the light, standard error",
-               .help = "the viewport shows the mean where its error is smaller, and begins to at four times "
-                       "that; also where filtering takes no noise away or is at fault; not in the first 12 "
-                       "frames, in full from 48 on; 0: never"},
-    SettingRow{.name = "denoise", .member = &Settings::denoise, .help = "filter light over time and space"},
-    SettingRow{.name = "diffuseFrames",
-               .member = &Settings::diffuseFrames,
-               .min = 1.0,
-               .max = 255.0,
-               .unit = "frames",
-               .help = "how many the denoiser averages of diffuse light at most"},
-    SettingRow{.name = "specularFrames",
-               .member = &Settings::specularFrames,
-               .min = 1.0,
-               .max = 255.0,
-               .unit = "frames",
-               .help = "the same of specular light"},
-    SettingRow{.name = "leastFrames",
-               .member = &Settings::leastFrames,
-               .min = 1.0,
-               .max = 32.0,
-               .unit = "frames",
-               .help = "what is left of that where light has changed"},
-    SettingRow{.name = "clipWidth",
-               .member = &Settings::clipWidth,
-               .min = 0.05,
-               .max = 10.0,
-               .unit = "standard deviations",
-               .help = "how far history may be off its 5 x 5 neighbourhood before it is moved"},
-    SettingRow{.name = "spatialRadius",
-               .member = &Settings::spatialRadius,
-               .min = 0.0,
-               .max = 64.0,
-               .unit = "pixels",
-               .help = "of the disk over which noise is filtered"},
-    SettingRow{.name = "spatialThreshold",
-               .member = &Settings::spatialThreshold,
-               .min = 0.0,
-               .max = 10.0,
-               .unit = "of the light, standard error",
-               .help = "noise that the spatial filter lets pass; from twice that on it works in full"},
-    SettingRow{.name = "antiAlias",
-               .member = &Settings::antiAlias,
-               .help = "average jittered frames of the filtered picture"},
-    SettingRow{.name = "antiAliasFrames",
-               .member = &Settings::antiAliasFrames,
-               .min = 1.0,
-               .max = 255.0,
-               .unit = "frames",
-               .help = "how many it averages at most"},
-    SettingRow{.name = "antiAliasClip",
-               .member = &Settings::antiAliasClip,
-               .min = 0.05,
-               .max = 10.0,
-               .unit = "standard deviations",
-               .help = "how far its history may be off its 3 x 3 neighbourhood; six times that where the "
-                       "denoiser of a still picture saw no change"},
+};
+constexpr std::array kRowsAfter = {
     SettingRow{.name = "renderScale",
                .member = &Settings::renderScale,
                .min = 0.1,
@@ -401,6 +337,15 @@ constexpr std::array kRows = {
                .member = &Settings::freezeHistory,
                .help = "the denoiser's history is read and not written"},
 };
+
+template<std::size_t... Sizes>
+constexpr auto joined(const std::array<SettingRow, Sizes>&... parts) {
+    std::array<SettingRow, (Sizes + ...)> rows;
+    auto at = rows.begin();
+    ((at = std::copy(parts.begin(), parts.end(), at)), ...);
+    return rows;
+}
+constexpr auto kRows = joined(kRowsBefore, kFilterRows, kRowsAfter);
 
 // Stands for any member while the members of Settings are counted.
 struct AnyMember {

@@ -53,6 +53,11 @@ SamplingConstants samplingConstants(const Settings& s) {
     c.dimMode = std::uint32_t(s.dimLights);
     c.listLength = std::uint32_t(s.listLength);
     c.listMemory = std::uint32_t(s.listMemory);
+    c.editHistory = float(s.editHistory);
+    c.upsampleDepth = float(s.upsampleDepth);
+    c.upsampleNormal = float(s.upsampleNormal);
+    c.upsampleLeast = float(s.upsampleLeast);
+    c.upsampleReachPx = float(s.upsampleReach);
     return c;
 }
 

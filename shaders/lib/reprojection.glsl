@@ -25,7 +25,7 @@ Reprojection reproject(uvec2 pixel) {
 // Whether a depth found in the previous frame is the same surface: within a share of it, more where the surface
 // is seen at a slant (`cosView`: of its geometric normal and the view), as depth then changes within a pixel.
 bool sameDepth(float foundM, float expectedM, float cosView) {
-    float tolerance = 0.02 + 2.0 * frame.pixelAngleRad / max(cosView, 0.02);
+    float tolerance = frame.denoising.depthTolerance + 2.0 * frame.pixelAngleRad / max(cosView, 0.02);
     return abs(foundM - expectedM) <= tolerance * expectedM;
 }
 

@@ -2,8 +2,7 @@
 #ifndef KILOLUX_LIB_SAMPLE_GLSL
 #define KILOLUX_LIB_SAMPLE_GLSL
 #include "../math/selection_types.glsl"
-#include "../shared/denoising.h"
-#include "../shared/sampling.h"
+#include "frame.glsl"
 
 struct StoredSample {
     uint slot;
@@ -27,12 +26,13 @@ StoredSample unpackSample(uvec4 texel) {
 
 // What the denoiser is told of a pixel, by the texel of its first sample. x: 1 sampled, 0.5 reconstructed, 0 without a
 // turn (its texel is all 0; one without any light has at least a point). y: frames that its history may hold.
-const float kEditedFrames = 3.5; // where all light was edited; half of it in the first frames, more for a part of it
+// The setting is for light that was edited as a whole: half of it in the first frames, more for a part of it.
 vec2 sampledState(uvec4 texel) {
     bool sampled = (texel.y | texel.z) != 0u;
     float valid = !sampled ? 0.0 : ((texel.x & SAMPLE_RECONSTRUCTED) != 0u ? 0.5 : 1.0);
     float editedShare = float(texel.x >> SAMPLE_EDITED_SHIFT) * (SAMPLE_MOST_EDITED / 255.0);
-    return vec2(valid, editedShare > 0.0 ? min(kEditedFrames / editedShare, HISTORY_FREE_FRAMES) : HISTORY_FREE_FRAMES);
+    float frames = editedShare > 0.0 ? frame.sampling.editHistory / editedShare : HISTORY_FREE_FRAMES;
+    return vec2(valid, min(frames, HISTORY_FREE_FRAMES));
 }
 
 #endif

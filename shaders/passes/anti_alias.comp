@@ -29,14 +29,9 @@ uniform sampler2D previousPixelMoments;
 layout(rgba16f) writeonly uniform image2D antiAliasedOut;
 layout(rgba16f) writeonly uniform image2D pixelMomentsOut; // of this pixel's light while still: mean, deviation, frames
 
-const float kLeastFrames = 4.0;   // that remain of a history which was clipped far
-const float kMovingFrames = 16.0; // at most where the picture moves: each resampling blurs
-const float kMomentFrames = 16.0; // that the deviation over time remembers
-const float kLeastExtent = 0.02; // of display white: smaller boxes do not shorten history
 const float kStillPx = 1.0 / 64.0;
 const float kRounding = 1.0 / 512.0; // of the light: several steps of a half float
 const float kDepthShare = 0.02, kDepthPx = 4.0; // by which depth differs within one surface: a share, pixels
-const float kSureClip = 6.0;   // times wider where the denoiser saw no change
 const float kLeastSure = 0.75; // share of the denoiser's frames from which on it counts
 
 // Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
@@ -89,6 +84,7 @@ void main() {
     uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
+    DenoisingConstants how = frame.denoising;
     vec3 color = storableLight(texelFetch(sceneColor, at, 0).rgb), now = yCoCgFromRgb(color);
     // The nearest surface of the neighbourhood says where to look: edges move with what is in front.
     vec3 mean = vec3(0.0), square = vec3(0.0);
@@ -127,7 +123,7 @@ void main() {
         if (still && !edited) moments = vec3(readMomentHistory(texel).xy, texel.z);
         vec3 before = yCoCgFromRgb(history.rgb);
         vec3 hue = abs(before) / max(before.x, 1.0e-6);
-        float clip = frame.denoising.antiAliasClip * (still && !edited ? mix(1.0, kSureClip, denoiserSure(at)) : 1.0);
+        float clip = how.antiAliasClip * (still && !edited ? mix(1.0, how.antiAliasSureClip, denoiserSure(at)) : 1.0);
         // The box holds the present colour as well: what is small and bright stands outside its neighbours' spread.
         vec3 extent = max(clip * max(spread, moments.y * hue), abs(now - mean));
         // Towards the middle of the box until inside, which keeps the hue better than clamping by component.
@@ -135,13 +131,14 @@ void main() {
         vec3 off = abs(before - mean) / max(extent, vec3(kRounding * before.x + 1.0e-5));
         float farthest = max(off.x, max(off.y, off.z));
         vec3 clipped = farthest > 1.0 ? mean + (before - mean) / farthest : before;
-        float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(kLeastExtent))));
-        float most = still ? frame.denoising.antiAliasFrames : min(frame.denoising.antiAliasFrames, kMovingFrames);
+        float confidence = saturate(1.0 - length((clipped - before) / max(extent, vec3(how.antiAliasExtent))));
+        float most = still ? how.antiAliasFrames : min(how.antiAliasFrames, how.antiAliasMovingFrames);
         if (!still && wasHidden(nearest, r, foundPx)) most = 1.0;
         if (edited) most = min(most, max(0.5 * allowed, 1.0));
-        frames = min(history.a + 1.0, mix(min(kLeastFrames, most), most, confidence));
+        frames = min(history.a + 1.0, mix(min(how.antiAliasLeastFrames, most), most, confidence));
         if (still) {
-            float count = min(moments.z + 1.0, kMomentFrames), share = 1.0 / count, change = now.x - moments.x;
+            float count = min(moments.z + 1.0, how.antiAliasMomentFrames);
+            float share = 1.0 / count, change = now.x - moments.x;
             float variance = (1.0 - share) * (moments.y * moments.y + share * change * change);
             moments = vec3(moments.x + share * change, sqrt(variance), count);
         }

@@ -21,15 +21,10 @@ uniform sampler2D historyMoments;
 layout(rgba16f) writeonly uniform image2D denoisedDiffuseOut;
 layout(rgba16f) writeonly uniform image2D denoisedSpecularOut;
 
-const float kNewFrames = 4.0;    // up to which a history counts as new
 const float kSqueezedFrames = 0.65; // of the first frames, whose sums are tone-mapped in full,
 const float kUnsqueezed = 1.75;     // and the shortest history after an edit: from there on none is
-const float kTaps = 6.0;
-const float kTapsNew = 12.0;     // where it is new
-const float kDeviations = 1.0;   // apart at which two pixels mix by half
 const float kDarkest = 1.0e-3;   // of display white: noise below is not seen
 const mat2 kGoldenTurn = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888); // the golden angle
-const float kPlanePx = 1.5;      // distance from the other's plane, in pixels, at which a weight is 0
 const float kRoughLobe = 0.4;    // roughness from which on specular light takes the whole radius
 
 struct Place {
@@ -58,7 +53,7 @@ struct Signal {
     float y;     // mean luminance of the neighbourhood: a pixel's own would stop at its noise
     float error; // standard error of the pixel's luminance
     float need;
-    float isNew;   // 1: the first frame of a history, 0 from kNewFrames on
+    float isNew;   // 1: the first frame of a history, 0 from spatialNewFrames on
     float squeeze; // how far sums are tone-mapped: not where an edit shortened a history, as that would darken it
 };
 
@@ -67,7 +62,8 @@ Signal makeSignal(vec4 light, vec2 moments) {
     Signal s;
     s.rgb = light.rgb;
     s.y = moments.x;
-    s.isNew = saturate((kNewFrames - light.a) / (kNewFrames - 1.0));
+    float newFrames = frame.denoising.spatialNewFrames;
+    s.isNew = saturate((newFrames - light.a) / (newFrames - 1.0));
     s.squeeze = saturate((kUnsqueezed - light.a) / (kUnsqueezed - kSqueezedFrames));
     // An exponential mean over n frames has the error of 2 n - 1 independent ones.
     s.error = moments.y * inversesqrt(max(2.0 * light.a - 1.0, 1.0));
@@ -79,7 +75,8 @@ Signal makeSignal(vec4 light, vec2 moments) {
 
 // The same for both orders of its arguments.
 float mixWeight(Signal a, Signal b) {
-    float apart = abs(a.y - b.y) / (kDeviations * sqrt(a.error * a.error + b.error * b.error) + 1.0e-5);
+    float error = sqrt(a.error * a.error + b.error * b.error);
+    float apart = abs(a.y - b.y) / (frame.denoising.spatialDeviations * error + 1.0e-5);
     return min(a.need, b.need) / (1.0 + apart * apart);
 }
 
@@ -95,8 +92,9 @@ vec3 expanded(vec3 rgb, float amount) {
 float placeWeight(Place a, Place b) {
     vec3 d = b.positionWs - a.positionWs;
     float footprintM = 0.5 * (a.depthM + b.depthM) * max(frame.pixelAngleRad, 1.0e-5);
-    float off = max(abs(dot(a.geoNormalWs, d)), abs(dot(b.geoNormalWs, d))) / (kPlanePx * footprintM);
-    float facing = saturate(1.0 - 6.0 * (1.0 - dot(a.normalWs, b.normalWs)));
+    float planeM = frame.denoising.spatialPlanePx * footprintM;
+    float off = max(abs(dot(a.geoNormalWs, d)), abs(dot(b.geoNormalWs, d))) / planeM;
+    float facing = saturate(1.0 - frame.denoising.spatialNormal * (1.0 - dot(a.normalWs, b.normalWs)));
     return saturate(1.5 - off) * facing * facing;
 }
 
@@ -119,7 +117,7 @@ void main() {
     if (max(d.need, s.need) > 0.0 && loadPlace(at, here)) {
         float radiusPx = frame.denoising.spatialRadiusPx;
         float isNew = max(d.isNew, s.isNew);
-        int taps = int(mix(kTaps, kTapsNew, isNew) + 0.5);
+        int taps = int(mix(frame.denoising.spatialTaps, frame.denoising.spatialTapsNew, isNew) + 0.5);
         vec2 turn = diskTurn(pixel);
         float lobe = saturate(here.roughness / kRoughLobe);
         vec3 hereD = compressed(d.rgb, d.squeeze), hereS = compressed(s.rgb, s.squeeze);

@@ -35,11 +35,7 @@ layout(rgba16f) writeonly uniform image2D historyMomentsOut;
 layout(rgba16f) writeonly uniform image2D denoiseTraceOut; // for the views; a dummy otherwise
 
 const float kLeastTap = 0.01;       // bilinear weights below are not fetched
-const float kSameNormal = 0.8;      // cosine of geometric normals
 const float kFirstFrames = 0.25;    // what the first frame counts; each of the next ones as much as all before, up to 1
-const float kMomentFrames = 12.0;   // that the deviation remembers
-const float kRelaxed = 2.0;         // of the clip width where the sample was reconstructed
-const float kLeastExtent = 0.1;     // of display white: smaller boxes do not shorten history (the talk)
 const float kDarkest = 1.0e-3;      // of display white: no change is seen below, and dim lights are found rarely
 const float kTaps = 25.0;
 const float kYoungFrames = 16.0; // histories of fewer share what is above so many times the neighbourhood and more,
@@ -48,7 +44,6 @@ const float kMostOutlier = 6.0;  // up to so many times that: the rest is lost
 const ivec2 kSharing[4] = ivec2[](ivec2(2, 1), ivec2(-1, 2), ivec2(1, 2), ivec2(2, -1)); // and their opposites
 const int kSharers = 8;
 const float kOtherSurface = 1.0e-3; // weight of neighbours of a new history that show another surface
-const float kSameDepth = 0.02; // share of the depth that neighbours on one surface may differ by
 const float kMovesPx = 0.1;    // a picture that moves
 const float kRoughLobe = 0.6;  // roughness from which on highlights are as wide as shading
 
@@ -64,7 +59,7 @@ bool showsSurface(ivec2 at, Reprojection r, vec3 geoNormalWs, float cosView) {
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.previousSize)))) return false;
     uvec4 there = texelFetch(previousSurface, at, 0);
     if (!sameDepth(surfaceDepthM(there), r.depthM, cosView)) return false;
-    return dot(surfaceGeoNormalWs(there), geoNormalWs) >= kSameNormal;
+    return dot(surfaceGeoNormalWs(there), geoNormalWs) >= frame.denoising.normalTolerance;
 }
 
 void addTap(inout History h, ivec2 at, float weight, Reprojection r, vec3 geoNormalWs, float cosView) {
@@ -201,8 +196,8 @@ Neighbours gatherNeighbours(ivec2 pixel, ivec2 before, bool hasHistory) {
 // Whether two pixels of this frame show one surface.
 bool sameSurfaceNow(uvec4 there, uvec4 surface, float cosView) {
     float depthM = surfaceDepthM(surface);
-    return abs(surfaceDepthM(there) - depthM) * cosView <= kSameDepth * depthM &&
-           dot(surfaceGeoNormalWs(there), surfaceGeoNormalWs(surface)) >= kSameNormal;
+    return abs(surfaceDepthM(there) - depthM) * cosView <= frame.denoising.depthTolerance * depthM &&
+           dot(surfaceGeoNormalWs(there), surfaceGeoNormalWs(surface)) >= frame.denoising.normalTolerance;
 }
 
 // Those of a pixel without history, and above all of its surface: every one where the pixel has no sample or nothing has
@@ -305,22 +300,22 @@ Filtered filterSignal(vec3 rgb, float valid, vec4 history, vec2 moments, Sums su
     vec3 mean = sums.light * scale, change = sums.change * scale;
     vec3 spread = sqrt(max(sums.lightSquare * scale - mean * mean, vec3(0.0)));
     vec3 noise = sqrt(max(sums.changeSquare * scale - change * change, vec3(0.0)));
-    float frames = history.a, heldFrames = min(frames, kMomentFrames);
+    float frames = history.a, heldFrames = min(frames, frame.denoising.momentFrames);
     vec3 before = yCoCgFromRgb(history.rgb);
     result.confidence = 1.0;
-    // Without a sample there is nothing to check or to add: history stays as it is.
-    if (valid > 0.0 && frames > 0.0 && count > 1.0) {
+    // Without a sample there is nothing to check or to add: history stays as it is. And where no neighbour had a sample
+    // that fits (valid < 1), what is around says nothing of this pixel: history is not rectified.
+    if (valid >= 1.0 && frames > 0.0 && count > 1.0) {
         // Light that is found rarely may be absent from a whole neighbourhood: the deviation over time knows.
         vec3 remembered = moments.y * max(abs(before) / max(before.x, 1.0e-6), vec3(0.1, 0.0, 0.0));
-        float width = frame.denoising.clipWidth * sqrt(kTaps / count) * sqrt(1.0 + 1.0 / frames) *
-                      (valid < 1.0 ? kRelaxed : 1.0);
+        float width = frame.denoising.clipWidth * sqrt(kTaps / count) * sqrt(1.0 + 1.0 / frames);
         vec3 extent = max(width * max(noise, remembered), vec3(kDarkest));
         vec3 byChange = change - clamp(change, -extent, extent);
         vec3 box = width / frame.denoising.clipWidth * max(spread, remembered);
         vec3 byBox = clamp(before, mean - box, mean + box) - before;
         vec3 move = agreedStep(byChange, byBox);
         before += move;
-        result.confidence = saturate(1.0 - length(move / max(extent, vec3(kLeastExtent))));
+        result.confidence = saturate(1.0 - length(move / max(extent, vec3(frame.denoising.clipExtent))));
     }
     float limit = mix(min(frame.denoising.leastFrames, mostFrames), mostFrames, result.confidence);
     if (valid > 0.0 && frames > 0.0 && isFiniteLight(rgb)) {

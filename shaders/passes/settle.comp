@@ -13,20 +13,17 @@ uniform sampler2D meanMoments;
 uniform sampler2D pixelMoments; // deviation of the filtered frames; absent without anti-aliasing
 layout(rgba16f) writeonly uniform image2D viewportColorOut;
 
-// Up to the first a variance says little, and grain that changes disturbs more than a filter's faults; from the
-// second on the mean shows as far as its error allows.
-const float kFewFrames = 12.0, kManyFrames = 48.0;
 const float kDarkest = 0.01;   // of display white: errors of darker pixels are not seen
-const float kBegin = 4.0;      // times settleError: where the mean begins to show
-const float kFaultBegin = 1.5, kFaultSure = 3.0; // standard errors of the mean that the filtered picture is off
 
 void main() {
     uvec2 pixel = streamedPixel();
     if (!isInPicture(pixel)) return;
     ivec2 at = ivec2(pixel);
+    DenoisingConstants how = frame.denoising;
     vec4 mean = texelFetch(meanColor, at, 0);
     vec3 filtered = texelFetch(filteredColor, at, 0).rgb;
-    if (mean.a <= kFewFrames || frame.denoising.settleError <= 0.0) {
+    // In the first frames a variance says little, and grain that changes disturbs more than a filter's faults.
+    if (mean.a <= how.settleFirstFrames || how.settleError <= 0.0) {
         imageStore(viewportColorOut, at, vec4(storableLight(filtered), 0.0));
         return;
     }
@@ -44,17 +41,18 @@ void main() {
         }
     }
     float error = sqrt(variance / (taps * max(mean.a, 1.0))) / (light / taps + kDarkest);
-    float least = frame.denoising.settleError;
-    float settled = 1.0 - saturate((error - least) / ((kBegin - 1.0) * least));
+    float least = how.settleError;
+    float settled = 1.0 - saturate((error - least) / ((how.settleBegin - 1.0) * least));
     float useless = smoothstep(0.5, 1.0, sqrt(filteredVariance / max(variance, 1.0e-12)));
     // A difference that the mean's noise does not explain is the filters' fault: small highlights and shadows.
     vec2 own = texelFetch(meanMoments, at, 0).xy;
     float deviation = sqrt(max(own.y, variance / taps) / max(mean.a, 1.0)) + kDarkest * 0.1;
-    float faulty = smoothstep(kFaultBegin, kFaultSure, abs(own.x - here) / deviation);
+    float faulty = smoothstep(how.settleFaultBegin, how.settleFaultSure, abs(own.x - here) / deviation);
     // The taps together know sooner: what a filter takes from a region, however dark, their sum tells from noise.
     float deviationOfSum = sqrt(variance / max(mean.a, 1.0)) + kDarkest * 0.01 * taps;
-    faulty = max(faulty, smoothstep(kFaultBegin, kFaultSure, abs(off) / deviationOfSum));
-    float trust = smoothstep(kFewFrames, kManyFrames, mean.a), share = max(max(settled, useless), faulty) * trust;
+    faulty = max(faulty, smoothstep(how.settleFaultBegin, how.settleFaultSure, abs(off) / deviationOfSum));
+    float trust = smoothstep(how.settleFirstFrames, how.settleFullFrames, mean.a);
+    float share = max(max(settled, useless), faulty) * trust;
     vec3 color = mix(filtered, mean.rgb, share);
     imageStore(viewportColorOut, at, vec4(storableLight(color), share));
 }

@@ -23,10 +23,10 @@ float likeness(uvec2 other, float depthM, vec3 normalWs) {
     if (otherM >= DEPTH_SKY) return 0.0;
     vec3 otherWs = surfaceNormalWs(surface);
     float apart = abs(otherM - depthM) / depthM;
-    float byDepth = exp2(-apart * 50.0);
-    float byNormal = pow(max(dot(normalWs, otherWs), 0.0), 8.0);
+    float byDepth = exp2(-apart * frame.sampling.upsampleDepth);
+    float byNormal = pow(max(dot(normalWs, otherWs), 0.0), frame.sampling.upsampleNormal);
     float w = byDepth * byNormal;
-    return w > 0.01 ? w : 0.0;
+    return w > frame.sampling.upsampleLeast ? w : 0.0;
 }
 
 void main() {
@@ -49,7 +49,8 @@ void main() {
             if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(halfSize)))) continue;
             uvec2 other = halfResolutionPixel(uvec2(at), kHalfSampling, how.noiseFrame);
             vec2 apart = abs(vec2(other) - vec2(pixel));
-            float w = max(2.0 - apart.x, 0.125) * max(2.0 - apart.y, 0.125) * likeness(other, depthM, normalWs);
+            vec2 reach = max(2.0 - apart, vec2(how.upsampleReachPx));
+            float w = reach.x * reach.y * likeness(other, depthM, normalWs);
             if (w <= 0.0) continue;
             sum += w;
             if (number * sum < w) {

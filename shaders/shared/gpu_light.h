@@ -21,10 +21,9 @@ KX_CONST uint LIGHT_UNIFORM_SLOTS = 1024u; // hot records that a uniform block h
 KX_CONST uint LIGHT_TYPE_MASK = 15u;
 KX_CONST uint LIGHT_FLAG_DEAD = 16u;   // freed or never used slot: weight 0
 KX_CONST uint LIGHT_FLAG_MUTED = 32u;  // weight 0, slot kept
-KX_CONST uint LIGHT_FLAG_EDITED = 64u; // changed in the last LIGHT_EDITED_FRAMES frames, or just died
-KX_CONST uint LIGHT_EDITED_FRAMES = 8u;
-KX_CONST uint LIGHT_FLAG_JUST_EDITED = 128u; // in the first frames of such edits, however long they go on
-KX_CONST uint LIGHT_JUST_EDITED_FRAMES = 3u;
+KX_CONST uint LIGHT_FLAG_EDITED = 64u; // changed in the last frames (setting editFrames), or just died
+KX_CONST uint LIGHT_FLAG_JUST_EDITED =
+    128u; // in the first frames of such edits (editFirstFrames), however long they go on
 KX_CONST uint LIGHT_EPOCH_SHIFT = 8u; // the low 4 bits of the slot's epoch, which every edit raises
 KX_CONST uint LIGHT_EPOCH_MASK = 15u;
 

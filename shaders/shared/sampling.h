@@ -32,8 +32,8 @@ KX_CONST uint RAY_CELL_SHIFT = 2u;
 
 // --- List of rays: a word per ray, x | y << 16 of its pixel, by tiles and in them by light --------------
 KX_CONST uint RAY_TILE_PX = 32u;
-KX_CONST uint RAY_GROUP = 64u; // rays that a workgroup takes
-KX_CONST uint RAY_GROUPS_ROW = 32768u; // workgroups in a dispatch's first dimension, of which devices allow 65,535
+KX_CONST uint RAY_GROUP = 64u;         // rays that a workgroup takes
+KX_CONST uint RAY_GROUPS_ROW = 32768u; // workgroups in a dispatch's first dimension
 
 // How long the list is. The first three words are the arguments of an indirect dispatch over it.
 struct RayListHead {
@@ -60,7 +60,7 @@ KX_CONST uint ENTRY_WINDOW = 8u;
 KX_CONST uint SEEN_OLDER_SHIFT = 16u; // of both words: the window before
 KX_CONST uint SEEN_MASK = 0xffffu;
 
-KX_CONST uint FRESH_LIGHTS = 8u;
+KX_CONST uint FRESH_LIGHTS = 8u; // that there is room for
 
 // Settings of the same names; see renderer/settings_table.cpp for ranges and defaults.
 struct SamplingConstants {
@@ -82,11 +82,16 @@ struct SamplingConstants {
     float domeShare;
     uint cellCandidates;
     uint missCandidates;
-    float dimThreshold; // a weight
-    uint dimMode;       // DIM_*
-    uint listLength;    // at most LIST_CAPACITY
-    uint listMemory;    // frames that an entry stays without being seen
-    uint noiseFrame;    // stands still when the noise is frozen
+    float dimThreshold;   // a weight
+    uint dimMode;         // DIM_*
+    uint listLength;      // at most LIST_CAPACITY
+    uint listMemory;      // frames that an entry stays without being seen
+    float editHistory;    // frames that a history may hold where all light was edited
+    float upsampleDepth;  // halvings per share of the depth
+    float upsampleNormal; // power of the cosine
+    float upsampleLeast;  // likeness
+    float upsampleReachPx;
+    uint noiseFrame; // stands still when the noise is frozen
     uint directionalCount;
     uint freshCount;
     uvec4 fresh0; // slots of the lights edited in the last frames, ascending

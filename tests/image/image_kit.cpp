@@ -100,6 +100,13 @@ RenderOptions smallOptions(int width, int height, const std::vector<std::string>
     return options;
 }
 
+void withFiltersOfAllDevices(const std::function<void(bool cpuFilters)>& test) {
+    for (const bool cpuFilters : {true, false}) {
+        SCOPED_TRACE(cpuFilters ? "filters of CPU devices" : "filters of other devices");
+        test(cpuFilters);
+    }
+}
+
 Rendered renderScene(const Scene& scene, RenderOptions options, const FrameObserver& observer) {
     options.keepTargets = true;
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(scene, options);

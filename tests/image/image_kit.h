@@ -51,6 +51,9 @@ struct Rendered {
 // Jitter off, the compute tracer, and then `settings` as --set reads them.
 RenderOptions smallOptions(int width, int height, const std::vector<std::string>& settings = {});
 
+// Runs a test with the filters as CPU devices have them and as others do.
+void withFiltersOfAllDevices(const std::function<void(bool cpuFilters)>& test);
+
 // Called after each frame with its index and targets.
 using FrameObserver = std::function<void(int, const FrameTargets&)>;
 

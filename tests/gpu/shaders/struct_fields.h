@@ -23,10 +23,13 @@
     F(rays) F(choices) F(pixelsPerRay) F(guiding) F(areaMasks) F(maskHiddenShare) F(maskSizeTiles) F(maskSamples) \
     F(hiddenShare) F(missHiddenShare) F(hiddenSeenShare) F(hiddenRelaxedBelow) F(directionalShare) \
     F(directionalFreeBelow) F(domeShare) F(cellCandidates) F(missCandidates) F(dimThreshold) F(dimMode) F(listLength) \
-    F(listMemory) F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
+    F(listMemory) F(editHistory) F(upsampleDepth) F(upsampleNormal) F(upsampleLeast) F(upsampleReachPx) F(noiseFrame) F(directionalCount) F(freshCount) F(fresh0) F(fresh1)
 #define FIELDS_DenoisingConstants(F) \
-    F(diffuseFrames) F(specularFrames) F(leastFrames) F(clipWidth) F(spatialRadiusPx) F(spatialThreshold) \
-    F(antiAliasFrames) F(antiAliasClip) F(settleError)
+    F(diffuseFrames) F(specularFrames) F(leastFrames) F(clipWidth) F(clipExtent) F(momentFrames) \
+    F(depthTolerance) F(normalTolerance) F(spatialRadiusPx) F(spatialThreshold) F(spatialTaps) F(spatialTapsNew) \
+    F(spatialNewFrames) F(spatialDeviations) F(spatialPlanePx) F(spatialNormal) F(antiAliasFrames) F(antiAliasClip) \
+    F(antiAliasSureClip) F(antiAliasExtent) F(antiAliasLeastFrames) F(antiAliasMovingFrames) F(antiAliasMomentFrames) \
+    F(settleError) F(settleBegin) F(settleFirstFrames) F(settleFullFrames) F(settleFaultBegin) F(settleFaultSure)
 #define FIELDS_ResamplingConstants(F) \
     F(candidates) F(reuse) F(mostHistory) F(neighbours) F(radiusPx) F(weights)
 #define FIELDS_ShadowMap(F) \

@@ -165,7 +165,7 @@ TEST(Edits, ListsForgetTheDeadAndTheMasksOfTheChanged) {
     for (const glm::uvec2& entry : kept)
         EXPECT_EQ(entry.x >> ENTRY_EPOCH_SHIFT & 15u, 1u);
     // A dead slot marks its tiles while the edit is fresh, no longer.
-    loop.frames(int(LIGHT_EDITED_FRAMES));
+    loop.frames(Settings{}.editFrames);
     EXPECT_EQ(entriesOf(loop, gone).size(), 0u);
 }
 

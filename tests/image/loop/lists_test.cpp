@@ -146,7 +146,7 @@ TEST(ListFuzz, AnyListKeepsTheMean) {
     loop.frames(1);
     ASSERT_EQ(loop.renderer().lightSlot(kDeadSlot + 1), kDeadSlot);
     loop.renderer().setLights(edited);
-    loop.frames(int(LIGHT_EDITED_FRAMES) + 1);
+    loop.frames(Settings{}.editFrames + 1);
     ASSERT_EQ(loop.renderer().visibleLists().size(), kTiles * LIST_TEXELS);
     std::mt19937 random(11);
     for (const Forced& forced : forcedKinds()) {

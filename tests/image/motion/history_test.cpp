@@ -98,12 +98,14 @@ TEST(VisibleLists, ArePickedAroundThePreviousPlace) {
 }
 
 // A picture moved by whole pixels: its light, and how many frames it holds, moved along.
-TEST(History, FollowsTheCameraByWholePixels) {
+void expectHistoryAfterAMove(bool cpuFilters) {
     constexpr int kWidth = 64, kHeight = 48, kRight = 5, kDown = 3;
     Scene scene = stageScene({lightCases()[0], lightCases()[4]});
     const Camera camera = orthographicCamera({0, 2.5, 4}, {0, -0.5, -1}, 0.06, kHeight);
     scene.cameras = {camera};
-    FrameRig rig(scene, stochasticOptions(kWidth, kHeight, {"picture=denoised"}));
+    RenderOptions options = stochasticOptions(kWidth, kHeight, {"picture=denoised"});
+    options.cpuFilters = cpuFilters;
+    FrameRig rig(scene, options);
     rig.frames(11);
     const FrameTargets before = rig.frame();
     rig.renderer().setCamera(movedByPixels(camera, 0.06, {kRight, kDown}), Renderer::CameraChange::Move);
@@ -138,6 +140,10 @@ TEST(History, FollowsTheCameraByWholePixels) {
     EXPECT_LE(apart / sum, 0.12);
     EXPECT_GE(apartUnmoved, 2.0 * apart) << "the picture is too even for this test";
     EXPECT_EQ(rig.renderer().statistics().historyReset, "first frame");
+}
+
+TEST(History, FollowsTheCameraByWholePixels) {
+    withFiltersOfAllDevices(expectHistoryAfterAMove);
 }
 
 // Stripes of light, six pixels wide, that go by by parts of a pixel: drawing history anew in every frame must

@@ -62,6 +62,7 @@ std::unique_ptr<Renderer> makeRenderer(const Scene& scene, const StepOptions& ho
     options.height = how.height;
     options.seed = how.seed;
     options.method = method;
+    options.cpuFilters = how.cpuFilters;
     options.settings.jitter = false;
     options.settings.picture = PictureChoice::Denoised;
     options.settings.exposureEv100 = {false, 6.0};

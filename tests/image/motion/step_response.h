@@ -4,6 +4,7 @@
 
 #include "renderer/renderer.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct StepOptions {
     int framesBefore = 40, framesAfter = 24;
     int referenceFrames = 24;
     std::uint32_t seed = 1;
+    std::optional<bool> cpuFilters; // as RenderOptions has it
 };
 
 // Renders the stage of tests/image/image_scenes.h. Throws what the renderer refuses.

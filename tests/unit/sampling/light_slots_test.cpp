@@ -10,6 +10,8 @@ namespace {
 using namespace shared;
 
 constexpr std::uint32_t kNone = 0xffffffffu;
+const auto kEditFrames = std::uint64_t(Settings{}.editFrames);
+const auto kEditFirstFrames = std::uint64_t(Settings{}.editFirstFrames);
 
 // Lights by id with an intensity that is their only property.
 struct Lights {
@@ -101,13 +103,13 @@ TEST(LightSlots, EditsRaiseTheEpochAndAreMarkedForSomeFrames) {
     EXPECT_EQ(epochOf(slots, 0), 0u);
     EXPECT_EQ(epochOf(slots, 1), 1u);
     EXPECT_EQ(slots.fresh(), std::vector<std::uint32_t>{1});
-    for (std::uint64_t frame = 11; frame < 10 + LIGHT_EDITED_FRAMES; ++frame) {
+    for (std::uint64_t frame = 11; frame < 10 + kEditFrames; ++frame) {
         update(slots, edited, frame);
         EXPECT_FALSE(slots.edited());
         EXPECT_TRUE(hasFlag(slots, 1, LIGHT_FLAG_EDITED)) << frame;
         EXPECT_FALSE(hasFlag(slots, 0, LIGHT_FLAG_EDITED)) << frame;
     }
-    update(slots, edited, 10 + LIGHT_EDITED_FRAMES);
+    update(slots, edited, 10 + kEditFrames);
     EXPECT_FALSE(hasFlag(slots, 1, LIGHT_FLAG_EDITED));
     EXPECT_TRUE(slots.changed()) << "the device must hear of the mark that went";
     EXPECT_TRUE(slots.fresh().empty());
@@ -122,13 +124,30 @@ TEST(LightSlots, ADragIsJustEditedInItsFirstFrames) {
     for (std::uint64_t frame = 10; frame <= 20; ++frame) {
         update(slots, Lights().add(1, 2.0f + float(frame)), frame);
         EXPECT_TRUE(hasFlag(slots, 0, LIGHT_FLAG_EDITED)) << frame;
-        EXPECT_EQ(hasFlag(slots, 0, LIGHT_FLAG_JUST_EDITED), frame < 10 + LIGHT_JUST_EDITED_FRAMES) << frame;
+        EXPECT_EQ(hasFlag(slots, 0, LIGHT_FLAG_JUST_EDITED), frame < 10 + kEditFirstFrames) << frame;
     }
-    const std::uint64_t rested = 20 + LIGHT_EDITED_FRAMES;
+    const std::uint64_t rested = 20 + kEditFrames;
     update(slots, Lights().add(1, 22.0f), rested);
     EXPECT_FALSE(hasFlag(slots, 0, LIGHT_FLAG_EDITED));
     update(slots, Lights().add(1, 5.0f), rested + 1);
     EXPECT_TRUE(hasFlag(slots, 0, LIGHT_FLAG_JUST_EDITED));
+}
+
+TEST(LightSlots, EditsAreRememberedAsTheSettingsSay) {
+    LightSlots slots;
+    Settings settings;
+    settings.editFrames = 3;
+    settings.editFirstFrames = 1;
+    settings.freshLights = 1;
+    slots.setEditMemory(settings);
+    update(slots, Lights().add(1, 1).add(2, 1), 0);
+    const Lights edited = Lights().add(1, 2).add(2, 5);
+    for (std::uint64_t frame = 10; frame < 15; ++frame) {
+        update(slots, edited, frame);
+        EXPECT_EQ(hasFlag(slots, 0, LIGHT_FLAG_EDITED), frame < 13) << frame;
+        EXPECT_EQ(hasFlag(slots, 0, LIGHT_FLAG_JUST_EDITED), frame < 11) << frame;
+        EXPECT_EQ(slots.fresh(), frame < 13 ? std::vector<std::uint32_t>{1} : std::vector<std::uint32_t>{});
+    }
 }
 
 TEST(LightSlots, EveryFieldCounts) {
