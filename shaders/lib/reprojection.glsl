@@ -22,11 +22,15 @@ Reprojection reproject(uvec2 pixel) {
     return r;
 }
 
-// Whether a depth found in the previous frame is the same surface: within a share of it, more where the surface
-// is seen at a slant (`cosView`: of its geometric normal and the view), as depth then changes within a pixel.
+// By which share depth may differ within one surface over so many pixels: more where the surface is seen at a slant
+// (`cosView`: of its geometric normal and the view).
+float depthTolerance(float cosView, float px) {
+    return frame.denoising.depthTolerance + px * frame.pixelAngleRad / max(cosView, 0.02);
+}
+
+// Whether a depth found in the previous frame is the same surface.
 bool sameDepth(float foundM, float expectedM, float cosView) {
-    float tolerance = frame.denoising.depthTolerance + 2.0 * frame.pixelAngleRad / max(cosView, 0.02);
-    return abs(foundM - expectedM) <= tolerance * expectedM;
+    return abs(foundM - expectedM) <= depthTolerance(cosView, 2.0) * expectedM;
 }
 
 #endif

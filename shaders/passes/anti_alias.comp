@@ -31,7 +31,7 @@ layout(rgba16f) writeonly uniform image2D pixelMomentsOut; // of this pixel's li
 
 const float kStillPx = 1.0 / 64.0;
 const float kRounding = 1.0 / 512.0; // of the light: several steps of a half float
-const float kDepthShare = 0.02, kDepthPx = 4.0; // by which depth differs within one surface: a share, pixels
+const float kDepthPx = 4.0; // over which depth may differ within one surface
 const float kLeastSure = 0.75; // share of the denoiser's frames from which on it counts
 
 // Catmull-Rom by five bilinear fetches; the corners' weights are small and left out.
@@ -69,8 +69,7 @@ bool wasHidden(ivec2 nearest, Reprojection r, vec2 foundPx) {
     uvec4 surface = texelFetch(gSurface, nearest, 0);
     bool sky = surfaceDepthM(surface) >= DEPTH_SKY;
     float cosView = sky ? 1.0 : abs(dot(surfaceGeoNormalWs(surface), normalize(cameraRay(uvec2(nearest)).dir)));
-    float tolerance = kDepthShare + kDepthPx * frame.pixelAngleRad / max(cosView, 0.02);
-    float leastM = r.depthM * (1.0 - min(tolerance, 0.9));
+    float leastM = r.depthM * (1.0 - min(depthTolerance(cosView, kDepthPx), 0.9));
     ivec2 centre = ivec2(floor(foundPx + 0.5));
     for (int i = 0; i < 5; ++i) {
         ivec2 offset = i == 4 ? ivec2(0) : 2 * ivec2(i & 1, i >> 1) - 1;

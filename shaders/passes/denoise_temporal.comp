@@ -272,10 +272,13 @@ void shareOutliers(inout vec3 diffuse, inout vec3 specular, ivec2 pixel, ivec2 b
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(frame.size)))) continue;
         if (any(lessThan(then, ivec2(0))) || any(greaterThanEqual(then, ivec2(frame.previousSize)))) continue;
         vec4 litD = texelFetch(litDiffuse, at, 0);
-        vec3 litS = texelFetch(litSpecular, at, 0).rgb;
+        vec4 specularThere = texelFetch(litSpecular, at, 0);
+        vec3 litS = specularThere.rgb;
         // What is common to both is no less than the own: most pairs end here.
         if (!isOutlier && luminance(litD.rgb) <= ownMostD && luminance(litS) <= ownMostS) continue;
         if (litD.a <= 0.0 || !isFiniteLight(litD.rgb + litS)) continue;
+        // A history that edits hold short takes no part, and so must be given nothing.
+        if (specularThere.a > 0.0 && specularThere.a < kYoungFrames) continue;
         if (!sameSurfaceNow(texelFetch(gSurface, at, 0), surface, cosView)) continue;
         vec4 oldD = readHistory(texelFetch(previousDiffuse, then, 0));
         if (oldD.a <= 0.0) continue;
@@ -372,8 +375,7 @@ void main() {
         if (mostSpecular < kYoungFrames) usualS.frames = kYoungFrames;
         bool young = hasHistory && litD.a > 0.0 && max(usualD.frames, usualS.frames) < kYoungFrames &&
                      isFiniteLight(litD.rgb + litS.rgb);
-        // Once, but as a loop: where no lane enters, a CPU device skips it.
-        for (; young; young = false) shareOutliers(litD.rgb, litS.rgb, at, before, usualD, usualS, surface, cosView);
+        if (young) shareOutliers(litD.rgb, litS.rgb, at, before, usualD, usualS, surface, cosView);
         Filtered d = filterSignal(litD.rgb, litD.a, h.diffuse, h.moments.xy, n.diffuse, n.count, mostDiffuse);
         Filtered s = filterSignal(litS.rgb, litD.a, h.specular, h.moments.zw, n.specular, n.count, mostSpecular);
         diffuse = d.light;

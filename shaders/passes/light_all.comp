@@ -28,6 +28,7 @@ layout(scalar) readonly buffer GridCells {
 layout(scalar) readonly buffer GridIndices {
     uint gridIndices[];
 };
+
 void main() {
     uvec2 pixel = dispatchedPixel();
     if (!isInPicture(pixel)) return;

@@ -147,15 +147,16 @@ uint mergeLayer(uvec2 tile, uint layer, uint from, uint count, inout Tally tally
         }
         cells = orOfLanes(cells);
         sum = sumOfLanes(sum);
-        if (!first) continue;
-        if (listed == slot) {
-            ++next;
-        } else {
-            uint epoch = loadLightHot(slot).typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
-            entry = uvec4(packEntry(VisibleEntry(slot, epoch, 0u)), uvec3(0u));
+        if (first) {
+            if (listed == slot) {
+                ++next;
+            } else {
+                uint epoch = loadLightHot(slot).typeFlags >> LIGHT_EPOCH_SHIFT & LIGHT_EPOCH_MASK;
+                entry = uvec4(packEntry(VisibleEntry(slot, epoch, 0u)), uvec3(0u));
+            }
+            entry = withSeen(entry, cells, sum);
+            if ((entry.x & kGone) == 0u) entries[1u - from][made++] = entry;
         }
-        entry = withSeen(entry, cells, sum);
-        if ((entry.x & kGone) == 0u) entries[1u - from][made++] = entry;
     }
     shareAcrossLanes();
     return subgroupBroadcastFirst(made);

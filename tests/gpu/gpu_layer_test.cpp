@@ -226,6 +226,19 @@ TEST(GpuLayer, GpuAssistedValidationIsQuietOnAChain) {
     EXPECT_THAT(device.takeValidationMessages(), ::testing::IsEmpty());
 }
 
+// Said by name, and before a byte of it is allocated.
+TEST_F(GpuTest, BuffersOfMoreTexelsThanTheDeviceTakesAreRefused) {
+    BufferDesc desc{"texels", VkDeviceSize(device().limits().maxTexelBufferElements) + 1,
+                    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT};
+    desc.texelFormat = VK_FORMAT_R8_UINT;
+    try {
+        const Buffer buffer(device(), desc);
+        FAIL() << "it was made";
+    } catch (const DeviceError& error) {
+        EXPECT_THAT(error.what(), HasSubstr("'texels' takes"));
+    }
+}
+
 TEST_F(GpuTest, AllocatorGivesBackEveryByteAndNeverOverlaps) {
     std::mt19937 random(7);
     const auto currentOf = [&](const char* cause) {
